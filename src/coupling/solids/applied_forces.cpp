@@ -146,13 +146,13 @@ class ForcesOnSolids {
          cut_at_cells(domain_.layout.geometry(), domain_.layout.cells(), surface, points)) {
       const double dry = dry_part(piece.cell);
       if (dry == 0) continue;
-      for (const auto& [at, weight] : points_on<Dim>(corners_of(piece, surface, points))) {
+      for_each_point_on(corners_of(piece, surface, points), [&](const Vec<Dim>& at, double weight) {
         const Vec3 x = extend<Dim>(at), w = force.velocity(x, t_);
         const Eigen::Matrix<double, 3, 6> G = velocity_at(x - body.center);
         const double rate = round * dry * weight * wind_rate(force.spec, w - G * V, extend<Dim>(piece.normal));
         sum.force += rate * G.transpose() * w;
         sum.slope += rate * G.transpose() * G;
-      }
+      });
     }
     std::vector<double> all(sum.force.begin(), sum.force.end());
     all.insert(all.end(), sum.slope.data(), sum.slope.data() + sum.slope.size());

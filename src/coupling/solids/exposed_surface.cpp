@@ -76,18 +76,14 @@ CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Di
 }
 
 template <int Dim>
-std::vector<ExposedPiece<Dim>> seen_from_cells(const Domain<Dim>& domain, const CellField<Dim, char>& open,
-                                               std::vector<FacetPiece<Dim>> pieces) {
-  std::vector<ExposedPiece<Dim>> exposed;
-  for (FacetPiece<Dim>& piece : pieces)
-    for (const IVec<Dim>& step : steps_outward<Dim>(piece.normal)) {
-      const IVec<Dim> cell = piece.cell + step;
-      const Site c = domain.layout.site(cell);
-      if (!open[c]) continue;
-      if (domain.layout.cells().contains(cell)) exposed.push_back({c, std::move(piece)});
-      break;
-    }
-  return exposed;
+std::optional<Site> acting_cell(const Domain<Dim>& domain, const CellField<Dim, char>& open, const IVec<Dim>& cell,
+                                const Vec<Dim>& normal) {
+  for (const IVec<Dim>& step : steps_outward<Dim>(normal)) {
+    const IVec<Dim> there = cell + step;
+    const Site c = domain.layout.site(there);
+    if (open[c]) return domain.layout.cells().contains(there) ? std::optional(c) : std::nullopt;
+  }
+  return {};
 }
 
 template <int Dim>
@@ -100,17 +96,20 @@ std::vector<ExposedPiece<Dim>> exposed_pieces(const Domain<Dim>& domain, const C
     return neighbours.cover(middle_of(piece, surface, points));
   };
   if (neighbours.any()) pieces.erase(std::remove_if(pieces.begin(), pieces.end(), covered), pieces.end());
-  return seen_from_cells(domain, open, std::move(pieces));
+  std::vector<ExposedPiece<Dim>> exposed;
+  for (FacetPiece<Dim>& piece : pieces)
+    if (const auto c = acting_cell(domain, open, piece.cell, piece.normal)) exposed.push_back({*c, std::move(piece)});
+  return exposed;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template std::vector<int> jointed_neighbours<D>(const Solids<D>&, const std::vector<Placement>&, int);  \
-  template class JointedNeighbours<D>;                                                                    \
-  template CellField<D, char> open_cells<D>(const Domain<D>&, const FaceGeometry<D>&);                    \
-  template std::vector<ExposedPiece<D>> seen_from_cells<D>(const Domain<D>&, const CellField<D, char>&,   \
-                                                           std::vector<FacetPiece<D>>);                   \
-  template std::vector<ExposedPiece<D>> exposed_pieces<D>(const Domain<D>&, const CellField<D, char>&,    \
-                                                          const SurfaceMesh&, const std::vector<Vec<D>>&, \
+#define SEICHE_INSTANTIATE(D)                                                                              \
+  template std::vector<int> jointed_neighbours<D>(const Solids<D>&, const std::vector<Placement>&, int);   \
+  template class JointedNeighbours<D>;                                                                     \
+  template CellField<D, char> open_cells<D>(const Domain<D>&, const FaceGeometry<D>&);                     \
+  template std::optional<Site> acting_cell<D>(const Domain<D>&, const CellField<D, char>&, const IVec<D>&, \
+                                              const Vec<D>&);                                              \
+  template std::vector<ExposedPiece<D>> exposed_pieces<D>(const Domain<D>&, const CellField<D, char>&,     \
+                                                          const SurfaceMesh&, const std::vector<Vec<D>>&,  \
                                                           const JointedNeighbours<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,5 +1,7 @@
 #pragma once
 // Pieces of a solid's surface and the cells whose pressure acts on them.
+#include <optional>
+
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
 #include "fluid/boundary/domain.h"
@@ -55,10 +57,11 @@ CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Di
 // Cells of a layout's padding that cut_at_cells() has to reach for the pieces on which a rank's cells act.
 constexpr int reach_of_pieces = 2;
 
-// The pieces on which this rank's cells act, of pieces in its padding. `open`: open_cells().
+// The owned cell that acts on a piece in `cell` with this outward normal; none if another rank's does, or no cell.
+// `open`: open_cells().
 template <int Dim>
-std::vector<ExposedPiece<Dim>> seen_from_cells(const Domain<Dim>& domain, const CellField<Dim, char>& open,
-                                               std::vector<FacetPiece<Dim>> pieces);
+std::optional<Site> acting_cell(const Domain<Dim>& domain, const CellField<Dim, char>& open, const IVec<Dim>& cell,
+                                const Vec<Dim>& normal);
 
 // The pieces on which this rank's cells act. All ranks choose the same cell for a piece. Corners of the surface are at
 // `points` (m). `open`: open_cells().

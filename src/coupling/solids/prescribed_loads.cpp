@@ -81,16 +81,30 @@ SolidLoad load_on_faces(const Domain<Dim>& domain, const FaceShares& shares, con
   return load;
 }
 
+template <int Dim>
+std::vector<PlacedPiece<Dim>> placed_pieces(const Domain<Dim>& domain, const SurfaceMesh& surface,
+                                            const std::vector<Vec<Dim>>& points) {
+  std::vector<PlacedPiece<Dim>> pieces;
+  for (const FacetPiece<Dim>& piece :
+       cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach_of_pieces), surface, points)) {
+    PlacedPiece<Dim> placed{piece.cell, piece.normal, corners_of(piece, surface, points)};
+    for_each_point_on(placed.corners, [&](const auto&, double weight) { placed.area += weight; });
+    pieces.push_back(std::move(placed));
+  }
+  return pieces;
+}
+
 // Drops pieces of solid k that another solid n covers, of those with covers(n). pose(n): its pose.
 template <int Dim, class Covers, class Poses>
-void drop_covered(double h, const std::vector<Body<Dim>>& bodies, int k, const std::vector<Vec<Dim>>& points,
-                  const Covers& covers, const Poses& pose, std::vector<FacetPiece<Dim>>& pieces) {
-  const SurfaceMesh& surface = bodies[std::size_t(k)].contact_surface();
+void drop_covered(double h, const std::vector<Body<Dim>>& bodies, int k, const Covers& covers, const Poses& pose,
+                  std::vector<PlacedPiece<Dim>>& pieces) {
   for (std::size_t n = 0; n < bodies.size() && !pieces.empty(); ++n) {
     if (int(n) == k || !covers(int(n))) continue;
     const Pose there = pose(int(n));
-    const auto covered = [&](const FacetPiece<Dim>& piece) {
-      return bodies[n].distance_in(there, middle_of(piece, surface, points)) < touching * h;
+    const auto covered = [&](const PlacedPiece<Dim>& piece) {
+      Vec<Dim> middle = Vec<Dim>::Zero();
+      for (const Vec<Dim>& corner : piece.corners) middle += corner / double(piece.corners.size());
+      return bodies[n].distance_in(there, middle) < touching * h;
     };
     pieces.erase(std::remove_if(pieces.begin(), pieces.end(), covered), pieces.end());
   }
@@ -107,6 +121,7 @@ class PrescribedLoads {
         solids_(setup.solids),
         geometry_(geometry),
         state_(state),
+        gravity_(setup.fluids.gravity.of_step(state.time, state.dt_now)),
         seen_(setup.solids.bodies.size()),
         open_(open_cells(setup.domain, geometry.faces)) {}
 
@@ -116,15 +131,14 @@ class PrescribedLoads {
     Seen& seen = seen_.at(std::size_t(k));
     const Body<Dim>& body = solids_.bodies[std::size_t(k)];
     if (!is_counted(body)) return b;
-    seen.points = placed_points<Dim>(body.contact_surface(), pose_at_solve(k));
-    seen.counts = domain_touches(seen.points) && !crosses_periodic_side(seen.points);
+    const std::vector<Vec<Dim>> points = placed_points<Dim>(body.contact_surface(), pose_at_solve(k));
+    seen.counts = domain_touches(points) && !crosses_periodic_side(points);
     if (!seen.counts) return b;
-    seen.pieces = pieces(k, seen.points);
-    for (const ExposedPiece<Dim>& exposed : seen.pieces)
-      for (const auto& [x, weight] : points_on<Dim>(corners_of(exposed.piece, body.contact_surface(), seen.points))) {
-        b.area() += weight;
-        b.sums.template tail<Dim>() += weight * exposed.piece.normal;
-      }
+    find_pieces(k, points, seen);
+    for (const auto& [cell, piece] : seen.acted_on) {
+      b.area() += piece->area;
+      b.sums.template tail<Dim>() += piece->area * piece->normal;
+    }
     load_on_faces(domain_, *geometry_.shares[std::size_t(k)], Vec3(0, 0, 0), [&](Site c, const auto&) {
       if (open_[c]) (state_.pressure[c] == 0 ? b.nothing() : state_.phi[c] < 0 ? b.liquid() : b.gas()) += 1;
       return 0.0;
@@ -147,11 +161,11 @@ class PrescribedLoads {
   }
 
  private:
-  // A solid's surface: points at the solve, m, and pieces on which this rank's cells act.
+  // Pieces of a solid's surface on which this rank's cells act. `own`: those of the step, where still_pieces do not do.
   struct Seen {
     bool counts = false;
-    std::vector<Vec<Dim>> points;
-    std::vector<ExposedPiece<Dim>> pieces;
+    std::vector<PlacedPiece<Dim>> own;
+    std::vector<std::pair<Site, const PlacedPiece<Dim>*>> acted_on;
   };
 
   // Pose at the last solve.
@@ -165,7 +179,7 @@ class PrescribedLoads {
   }
   // Gravity and fields, m/s^2.
   Vec<Dim> pull_at(const Vec3& x) const {
-    return truncate<Dim>(pull_on_liquid(fluids_.gravity, setup_.forces, x, state_.time, state_.dt_now));
+    return truncate<Dim>(pull_on_liquid(gravity_, setup_.forces, x, state_.time - 0.5 * state_.dt_now));
   }
   static SolidLoad less(const SolidLoad& a, const SolidLoad& b) { return {a.force - b.force, a.torque - b.torque}; }
 
@@ -216,39 +230,42 @@ class PrescribedLoads {
   // pressure_of(cell): a LinearPressure, and true if only its positive part acts.
   template <class Pressures>
   SolidLoad on_pieces(int k, const Pressures& pressure_of) const {
-    const Body<Dim>& body = solids_.bodies[std::size_t(k)];
+    const double ratio = solids_.bodies[std::size_t(k)].facet_ratio();
     const Vec3 about = geometry_.pivots[std::size_t(k)];
-    const Seen& seen = seen_[std::size_t(k)];
     SolidLoad load;
-    for (const ExposedPiece<Dim>& exposed : seen.pieces) {
-      const auto [p, ends_at_surface] = pressure_of(exposed.cell);
-      std::vector<Vec<Dim>> corners = corners_of(exposed.piece, body.contact_surface(), seen.points);
-      if (ends_at_surface) corners = positive_part(corners, p);
-      if (corners.size() < Dim) continue;
-      for (const auto& [x, weight] : points_on<Dim>(corners)) {
-        const Vec3 force = -body.facet_ratio() * p(x) * weight * extend<Dim>(exposed.piece.normal);
+    for (const auto& [cell, piece] : seen_[std::size_t(k)].acted_on) {
+      const auto [p, ends_at_surface] = pressure_of(cell);
+      if (p.value == 0 && p.slope.isZero(0)) continue;
+      const auto add = [&, &p = p, &piece = piece](const Vec<Dim>& x, double weight) {
+        const Vec3 force = -ratio * p(x) * weight * extend<Dim>(piece->normal);
         load.force += force;
         load.torque += (extend<Dim>(x) - about).cross(force);
-      }
+      };
+      if (!ends_at_surface)
+        for_each_point_on(piece->corners, add);
+      else if (const auto part = positive_part(piece->corners, p); part.size() >= Dim)
+        for_each_point_on(part, add);
     }
     return load;
   }
 
-  // Pieces that no other prescribed solid covers, with the cells that act on them.
-  std::vector<ExposedPiece<Dim>> pieces(int k, const std::vector<Vec<Dim>>& points) const {
+  // Finds the pieces that no other prescribed solid covers, and the cells that act on them.
+  void find_pieces(int k, const std::vector<Vec<Dim>>& points, Seen& seen) const {
     const std::vector<Body<Dim>>& bodies = solids_.bodies;
-    const bool still = !bodies[std::size_t(k)].moves();
-    std::vector<FacetPiece<Dim>> all =
-        still ? solids_.still_pieces[std::size_t(k)]
-              : cut_at_cells(domain_.layout.geometry(), domain_.layout.grown(reach_of_pieces),
-                             bodies[std::size_t(k)].contact_surface(), points);
-    const auto covers = [&](int n) {
-      const Body<Dim>& other = bodies[std::size_t(n)];
-      return is_counted(other) && (!still || other.moves()) && near(points, n);
-    };
-    drop_covered(
-        domain_.layout.h(), bodies, k, points, covers, [&](int n) { return pose_at_solve(n); }, all);
-    return seen_from_cells(domain_, open_, std::move(all));
+    const Body<Dim>& body = bodies[std::size_t(k)];
+    std::vector<char> covering(bodies.size(), 0);
+    for (std::size_t n = 0; n < bodies.size(); ++n)
+      covering[n] = int(n) != k && is_counted(bodies[n]) && (body.moves() || bodies[n].moves()) && near(points, int(n));
+    const bool as_cut = !body.moves() && std::find(covering.begin(), covering.end(), 1) == covering.end();
+    if (!as_cut) {
+      seen.own =
+          body.moves() ? placed_pieces(domain_, body.contact_surface(), points) : solids_.still_pieces[std::size_t(k)];
+      drop_covered(
+          domain_.layout.h(), bodies, k, [&](int n) { return covering[std::size_t(n)] != 0; },
+          [&](int n) { return pose_at_solve(n); }, seen.own);
+    }
+    for (const PlacedPiece<Dim>& piece : as_cut ? solids_.still_pieces[std::size_t(k)] : seen.own)
+      if (const auto c = acting_cell(domain_, open_, piece.cell, piece.normal)) seen.acted_on.emplace_back(*c, &piece);
   }
 
   const Setup<Dim>& setup_;
@@ -257,6 +274,7 @@ class PrescribedLoads {
   const Solids<Dim>& solids_;
   const StepGeometry<Dim>& geometry_;
   const State<Dim>& state_;
+  Vec3 gravity_;
   std::vector<Seen> seen_;
   CellField<Dim, char> open_;
 };
@@ -290,25 +308,24 @@ std::vector<SolidLoad> loads_beyond_faces(const Setup<Dim>& setup, const StepGeo
 }
 
 template <int Dim>
-std::vector<std::vector<FacetPiece<Dim>>> pieces_of_still_solids(const Domain<Dim>& domain,
-                                                                 const std::vector<Body<Dim>>& bodies) {
-  std::vector<std::vector<FacetPiece<Dim>>> pieces(bodies.size());
+std::vector<std::vector<PlacedPiece<Dim>>> pieces_of_still_solids(const Domain<Dim>& domain,
+                                                                  const std::vector<Body<Dim>>& bodies) {
+  std::vector<std::vector<PlacedPiece<Dim>>> pieces(bodies.size());
   const auto still = [&](int k) { return is_counted(bodies[std::size_t(k)]) && !bodies[std::size_t(k)].moves(); };
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (!still(int(k))) continue;
-    const std::vector<Vec<Dim>> points = placed_points<Dim>(bodies[k].contact_surface(), Pose());
-    pieces[k] = cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach_of_pieces),
-                             bodies[k].contact_surface(), points);
+    const SurfaceMesh& surface = bodies[k].contact_surface();
+    pieces[k] = placed_pieces(domain, surface, placed_points<Dim>(surface, Pose()));
     drop_covered(
-        domain.layout.h(), bodies, int(k), points, still, [&](int) { return Pose(); }, pieces[k]);
+        domain.layout.h(), bodies, int(k), still, [&](int) { return Pose(); }, pieces[k]);
   }
   return pieces;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                      \
   template std::vector<SolidLoad> loads_beyond_faces<D>(const Setup<D>&, const StepGeometry<D>&, const State<D>&); \
-  template std::vector<std::vector<FacetPiece<D>>> pieces_of_still_solids<D>(const Domain<D>&,                     \
-                                                                             const std::vector<Body<D>>&);
+  template std::vector<std::vector<PlacedPiece<D>>> pieces_of_still_solids<D>(const Domain<D>&,                    \
+                                                                              const std::vector<Body<D>>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -17,7 +17,7 @@ std::vector<SolidLoad> loads_beyond_faces(const Setup<Dim>& setup, const StepGeo
 // Pieces of the surfaces of static solids that no other static solid covers, fixed for the run. One list a solid; empty
 // for others.
 template <int Dim>
-std::vector<std::vector<FacetPiece<Dim>>> pieces_of_still_solids(const Domain<Dim>& domain,
-                                                                 const std::vector<Body<Dim>>& bodies);
+std::vector<std::vector<PlacedPiece<Dim>>> pieces_of_still_solids(const Domain<Dim>& domain,
+                                                                  const std::vector<Body<Dim>>& bodies);
 
 }  // namespace seiche

@@ -83,7 +83,8 @@ constexpr double smallest_face = 1e-12;
 // Gravity and fields at a point, m/s^2: what liquid at rest there hangs on.
 template <int Dim>
 Vec3 pull_at(const CoupledStep<Dim>& step, const Vec3& x) {
-  return pull_on_liquid(step.setup.fluids.gravity, step.setup.forces, x, step.state.time, step.dt);
+  const double end = step.state.time;
+  return pull_on_liquid(step.setup.fluids.gravity.of_step(end, step.dt), step.setup.forces, x, end - 0.5 * step.dt);
 }
 
 // Unit vector against gravity; zero without gravity.

@@ -6,22 +6,21 @@
 
 namespace seiche {
 
-// Points (m) and weights (m^(Dim-1)) of a rule for a plane piece that is exact for polynomials of second degree, as in
-// the moment of a linear pressure: Gauss's two points of a segment, the middles of the sides of triangles.
-template <int Dim>
-std::vector<std::pair<Vec<Dim>, double>> points_on(const std::vector<Vec<Dim>>& corners) {
-  std::vector<std::pair<Vec<Dim>, double>> points;
+// visit(x, weight) for the points (m) and weights (m^(Dim-1)) of a rule for a plane piece that is exact for polynomials
+// of second degree, as in the moment of a linear pressure: Gauss's two points of a segment, the middles of the sides of
+// triangles.
+template <int Dim, class Visit>
+void for_each_point_on(const std::vector<Vec<Dim>>& corners, const Visit& visit) {
   if constexpr (Dim == 2) {
     const Vec<2> middle = 0.5 * (corners[0] + corners[1]), half = 0.5 * (corners[1] - corners[0]);
-    for (const double side : {-1.0, 1.0}) points.emplace_back(middle + side / std::sqrt(3.0) * half, half.norm());
+    for (const double side : {-1.0, 1.0}) visit(Vec<2>(middle + side / std::sqrt(3.0) * half), half.norm());
   } else {
     for (std::size_t n = 2; n < corners.size(); ++n) {
       const std::array<Vec<3>, 3> t{corners[0], corners[n - 1], corners[n]};
       const double area = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
-      for (std::size_t a = 0; a < 3; ++a) points.emplace_back(0.5 * (t[a] + t[(a + 1) % 3]), area / 3);
+      for (std::size_t a = 0; a < 3; ++a) visit(Vec<3>(0.5 * (t[a] + t[(a + 1) % 3])), area / 3);
     }
   }
-  return points;
 }
 
 // The points of a surface in a pose, m.
@@ -51,11 +50,11 @@ SolidLoad load_on_pieces(const std::vector<ExposedPiece<Dim>>& pieces, const Sur
                          const std::vector<Vec<Dim>>& points, const Vec3& center, const Pressure& p) {
   SolidLoad load;
   for (const ExposedPiece<Dim>& exposed : pieces)
-    for (const auto& [at, weight] : points_on<Dim>(corners_of(exposed.piece, surface, points))) {
+    for_each_point_on(corners_of(exposed.piece, surface, points), [&](const Vec<Dim>& at, double weight) {
       const Vec3 x = extend<Dim>(at), force = -p(exposed.cell, x) * weight * extend<Dim>(exposed.piece.normal);
       load.force += force;
       load.torque += (x - center).cross(force);
-    }
+    });
   return load;
 }
 

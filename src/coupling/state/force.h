@@ -5,7 +5,6 @@
 
 #include "base/expression.h"
 #include "base/force_spec.h"
-#include "base/gravity.h"
 #include "geometry/shapes/shapes.h"
 #include "grid/layout.h"
 
@@ -40,13 +39,12 @@ struct Force {
 template <int Dim>
 double largest_field(const std::vector<Force<Dim>>& forces, const Geometry<Dim>& grid, double t0, double t1);
 
-// Mean acceleration (m/s^2) of liquid at x by gravity and fields over a step of dt that ends at t.
+// Acceleration (m/s^2) of liquid at x by gravity and the fields of time t (s).
 template <int Dim>
-Vec3 pull_on_liquid(const Gravity& gravity, const std::vector<Force<Dim>>& forces, const Vec3& x, double t, double dt) {
-  Vec3 sum = gravity.of_step(t, dt);
+Vec3 pull_on_liquid(Vec3 gravity, const std::vector<Force<Dim>>& forces, const Vec3& x, double t) {
   for (const Force<Dim>& force : forces)
-    if (force.is_field() && force.acts_on_liquid() && force.acts_at(x)) sum += force.field_at(x, t - 0.5 * dt);
-  return sum;
+    if (force.is_field() && force.acts_on_liquid() && force.acts_at(x)) gravity += force.field_at(x, t);
+  return gravity;
 }
 
 }  // namespace seiche

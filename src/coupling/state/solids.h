@@ -13,6 +13,15 @@ namespace seiche {
 struct Scene;
 struct OperatorPerturbation;
 
+// The part of a solid's surface in one cell.
+template <int Dim>
+struct PlacedPiece {
+  IVec<Dim> cell;
+  Vec<Dim> normal;                // outward
+  std::vector<Vec<Dim>> corners;  // m; of a segment or a convex polygon
+  double area = 0;                // m^(Dim-1)
+};
+
 // Keeps references to its own members: neither copied nor moved.
 template <int Dim>
 struct Solids {
@@ -22,8 +31,8 @@ struct Solids {
   SolidGeometry<Dim> geometry;
   Participants<Dim> at_start;
   Interactions<Dim> interactions;
-  std::optional<ContactScene<Dim>> contact;                // set if any solid has unknowns
-  std::vector<std::vector<FacetPiece<Dim>>> still_pieces;  // pieces_of_still_solids()
+  std::optional<ContactScene<Dim>> contact;                 // set if any solid has unknowns
+  std::vector<std::vector<PlacedPiece<Dim>>> still_pieces;  // pieces_of_still_solids()
 
   // Appends notes of reading the shapes, for the log. The domain and the forces must outlive the solids.
   Solids(const Scene& scene, const Domain<Dim>& domain, const std::vector<Force<Dim>>& forces,
