@@ -14,10 +14,12 @@
 #include "files/checked_file.h"
 #include "files/csv.h"
 #include "render/png_writer.h"
+#include "unit/render/common.h"
 
 namespace plots_tests {
 using namespace seiche;
 using namespace seiche::charts;
+using seiche::testing::message_of;
 namespace fs = std::filesystem;
 
 namespace {
@@ -28,16 +30,6 @@ struct Scratch {
   Scratch() { fs::create_directories(folder / "a"); }
   ~Scratch() { fs::remove_all(folder); }
 };
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    CHECK(error.code() == ExitCode::bad_input);
-    return error.what();
-  }
-  return "";
-}
 
 // A run of `steps` steps of 0.1 s, in which a ball falls and a probe measures.
 void store_run(const fs::path& run, int steps) {

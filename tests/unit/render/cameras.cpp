@@ -1,8 +1,6 @@
 // Ways of the camera, pictures without ground, EXR.
 #include <catch2/catch.hpp>
 
-#include <unistd.h>
-
 #include <cmath>
 #include <fstream>
 
@@ -12,31 +10,15 @@
 #include "render/pictures.h"
 #include "render/png_writer.h"
 #include "render/trace.h"
+#include "unit/render/common.h"
 
 namespace cameras_tests {
 using namespace seiche;
 using namespace seiche::render;
+using namespace seiche::testing;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Scratch {
-  fs::path folder = fs::temp_directory_path() / ("seiche_cameras_" + std::to_string(getpid()));
-  Scratch() { fs::create_directories(folder / "frames"); }
-  ~Scratch() { fs::remove_all(folder); }
-};
-
-const auto silent = [](const std::string&) {};
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    CHECK(error.code() == ExitCode::bad_input);
-    return error.what();
-  }
-  return "";
-}
 
 // A ball of liquid in the unit cube, moving along x.
 vdb::Frame ball(int n, int number) {
@@ -60,11 +42,7 @@ vdb::Frame ball(int n, int number) {
   return frame;
 }
 
-void store(const Scratch& scratch, const vdb::Frame& frame) {
-  write_file(scratch.folder / "frames" / ("frame.000" + std::to_string(frame.number) + ".vdb"), vdb::encode(frame));
-}
-
-RenderOptions small(const Scratch& scratch) {
+RenderOptions small(const ScratchRun& scratch) {
   RenderOptions options;
   options.run = scratch.folder;
   options.width = 200;
@@ -72,7 +50,7 @@ RenderOptions small(const Scratch& scratch) {
   return options;
 }
 
-Image draw_one(const Scratch& scratch, const RenderOptions& options, const std::string& name = "frame.0000.png") {
+Image draw_one(const ScratchRun& scratch, const RenderOptions& options, const std::string& name = "frame.0000.png") {
   render_run(options, silent);
   return read_png(scratch.folder / "pictures" / name);
 }
@@ -89,7 +67,7 @@ Vec3f middle_of(const Image& image) {
 }  // namespace
 
 TEST_CASE("the camera's path goes through its rows, straight or smoothly, and rests beyond them") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   const fs::path file = scratch.folder / "path.csv";
   write_file(file,
              "time,eye_x,eye_y,eye_z,look_x,look_y,look_z,degrees\n0,0,0,5,0,0,0,30\n2,4,0,5,0,0,0,40\r\n"
@@ -114,7 +92,7 @@ TEST_CASE("the camera's path goes through its rows, straight or smoothly, and re
 }
 
 TEST_CASE("a path that cannot be used is refused with its line") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   const fs::path file = scratch.folder / "path.csv";
   const auto refused = [&](const std::string& text) {
     write_file(file, text);
@@ -132,7 +110,7 @@ TEST_CASE("a path that cannot be used is refused with its line") {
 }
 
 TEST_CASE("a turntable turns round one frame, or along the frames") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   for (const int number : {0, 1}) store(scratch, ball(12, number));
   RenderOptions options = small(scratch);
   options.turntable = 4;
@@ -151,7 +129,7 @@ TEST_CASE("a turntable turns round one frame, or along the frames") {
 }
 
 TEST_CASE("without ground pictures have alpha: none in the sky, all on solids, and shadows below") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   store(scratch, ball(16, 0));
   RenderOptions options = small(scratch);
   options.transparent = true;
@@ -168,7 +146,7 @@ TEST_CASE("without ground pictures have alpha: none in the sky, all on solids, a
 }
 
 TEST_CASE("liquids differ in colour: honey is not blue, milk is white, mercury mirrors") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   store(scratch, ball(16, 0));
   RenderOptions options = small(scratch);
   options.plain = true;
@@ -186,7 +164,7 @@ TEST_CASE("liquids differ in colour: honey is not blue, milk is white, mercury m
 }
 
 TEST_CASE("light comes back from EXR as it was, to half precision") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   Canvas canvas(7, 5, Vec3f::Zero());
   canvas.alpha.resize(35);
   for (int i = 0; i < 35; ++i) {
@@ -212,7 +190,7 @@ TEST_CASE("light comes back from EXR as it was, to half precision") {
 }
 
 TEST_CASE("EXR pictures of a run hold light beyond white") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   store(scratch, ball(16, 0));
   RenderOptions options = small(scratch);
   options.format = Format::exr;

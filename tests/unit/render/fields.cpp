@@ -1,8 +1,6 @@
 // Quantities derived from the velocity, ranges of colours, streamlines, foam.
 #include <catch2/catch.hpp>
 
-#include <unistd.h>
-
 #include <cmath>
 #include <fstream>
 
@@ -15,31 +13,15 @@
 #include "render/liquid_look.h"
 #include "render/placed_shape.h"
 #include "render/streamlines.h"
+#include "unit/render/common.h"
 
 namespace fields_tests {
 using namespace seiche;
 using namespace seiche::render;
+using namespace seiche::testing;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Scratch {
-  fs::path folder = fs::temp_directory_path() / ("seiche_fields_" + std::to_string(getpid()));
-  Scratch() { fs::create_directories(folder / "frames"); }
-  ~Scratch() { fs::remove_all(folder); }
-};
-
-const auto silent = [](const std::string&) {};
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    CHECK(error.code() == ExitCode::bad_input);
-    return error.what();
-  }
-  return "";
-}
 
 // Liquid everywhere in the unit square or cube, with velocity u(x) at the faces' centres.
 vdb::Frame flow(int dimension, int n, const std::function<Vec3(const Vec3&)>& u) {
@@ -63,7 +45,7 @@ vdb::Frame flow(int dimension, int n, const std::function<Vec3(const Vec3&)>& u)
   return frame;
 }
 
-void store(const Scratch& scratch, vdb::Frame frame, int number) {
+void store(const ScratchRun& scratch, vdb::Frame frame, int number) {
   frame.number = number;
   frame.time = 0.1 * number;
   frame.creator = "test";
@@ -74,7 +56,7 @@ Vec3 rotation(const Vec3& x) {
   return Vec3(0.5 - x[1], x[0] - 0.5, 0) * 3;
 }
 
-RenderOptions options_for(const Scratch& scratch) {
+RenderOptions options_for(const ScratchRun& scratch) {
   RenderOptions options;
   options.run = scratch.folder;
   return options;
@@ -120,7 +102,7 @@ TEST_CASE("a quantity that a frame lacks is refused with what it has and what to
 }
 
 TEST_CASE("colours range over all frames, or one, or as given, and about zero for quantities with a sign") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   for (const int number : {0, 1})
     store(scratch, flow(2, 16, [&](const Vec3&) { return Vec3(1.0 + 3 * number, 0, 0); }), number);
   RenderOptions options = options_for(scratch);

@@ -1,8 +1,6 @@
 // Pictures and descriptions of frames on disk.
 #include <catch2/catch.hpp>
 
-#include <unistd.h>
-
 #include <cmath>
 #include <fstream>
 
@@ -14,20 +12,15 @@
 #include "render/frame.h"
 #include "render/png_writer.h"
 #include "render/run.h"
+#include "unit/render/common.h"
 
 namespace frames_tests {
 using namespace seiche;
 using namespace seiche::render;
+using namespace seiche::testing;
 namespace fs = std::filesystem;
 
 namespace {
-
-// A folder that is removed at the end of the test.
-struct Scratch {
-  fs::path folder = fs::temp_directory_path() / ("seiche_render_" + std::to_string(getpid()));
-  Scratch() { fs::create_directories(folder / "frames"); }
-  ~Scratch() { fs::remove_all(folder); }
-};
 
 // Water below the height 0.5 + slope (x - 0.5) in the unit cube or square, flowing at (3, 4, 0) m/s.
 vdb::Frame sloping_water(int dimension, int n, int number, double slope) {
@@ -54,12 +47,6 @@ vdb::Frame sloping_water(int dimension, int n, int number, double slope) {
   return frame;
 }
 
-void store(const Scratch& scratch, const vdb::Frame& frame) {
-  write_file(scratch.folder / "frames" / ("frame.000" + std::to_string(frame.number) + ".vdb"), vdb::encode(frame));
-}
-
-const auto silent = [](const std::string&) {};
-
 ExitCode code_of(const std::function<void()>& action) {
   try {
     action();
@@ -72,7 +59,7 @@ ExitCode code_of(const std::function<void()>& action) {
 }  // namespace
 
 TEST_CASE("surfaces of solids come back from a .vtu as they were written") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   const fs::path file = scratch.folder / "solids.0000.vtu";
   SurfaceMesh tetrahedron{
       {{0, 0, 0}, {1.0 / 3, 0, 0}, {0, 1e-7, 0}, {0, 0, -2e5}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}};
@@ -87,7 +74,7 @@ TEST_CASE("surfaces of solids come back from a .vtu as they were written") {
 }
 
 TEST_CASE("ascii and appended .vtu arrays are read too, and damaged files refused") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   const fs::path file = scratch.folder / "solids.0000.vtu";
   const std::string head = "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece>";
   const std::string cells =
@@ -118,7 +105,7 @@ TEST_CASE("ascii and appended .vtu arrays are read too, and damaged files refuse
 
 TEST_CASE("a run is rendered in 2D and 3D, with label, contact sheet and only the frames asked for") {
   for (const int dimension : {2, 3}) {
-    const Scratch scratch;
+    const ScratchRun scratch;
     for (int number = 0; number < 4; ++number) store(scratch, sloping_water(dimension, 16, number, 0.1 * number));
     RenderOptions options;
     options.run = scratch.folder;
@@ -145,7 +132,7 @@ TEST_CASE("a run is rendered in 2D and 3D, with label, contact sheet and only th
 }
 
 TEST_CASE("a folder without frames, a frame that is not there and a field that is not there are bad input") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   RenderOptions options;
   options.run = scratch.folder;
   CHECK(code_of([&] { render_run(options, silent); }) == ExitCode::bad_input);
@@ -164,7 +151,7 @@ TEST_CASE("speed is the length of the velocity at cell centres") {
 }
 
 TEST_CASE("info tells a frame's fields, time and liquid volume") {
-  const Scratch scratch;
+  const ScratchRun scratch;
   store(scratch, sloping_water(3, 20, 2, 0));
   std::string text;
   for (const std::string& line : describe_path(scratch.folder / "frames" / "frame.0002.vdb")) text += line + "\n";
