@@ -2,6 +2,7 @@
 import re
 import sys
 import pathlib
+from fnmatch import fnmatchcase
 
 from fuzzing.energy import check_energies
 from fuzzing.program import OTHER_HEAP
@@ -50,10 +51,17 @@ def check_volume(scene, folder):
                               f"m^{scene['dimension']}, {amiss / cell:.3g} cells amiss, without a warning")
 
 
-def are_jointed(scene, i, j):
-    """True if a joint holds two solids, which then may overlap."""
-    names = {scene["solid"][k].get("name", f"solid{k + 1}") for k in (i, j)}
-    return any(set(joint["between"]) == names and not joint.get("collide") for joint in scene.get("joint", []))
+def may_overlap(scene, i, j):
+    """True if a joint holds two solids, or the last contact that names them lets them pass through each other."""
+    a, b = (scene["solid"][k].get("name", f"solid{k + 1}") for k in (i, j))
+    if any(set(joint["between"]) == {a, b} and not joint.get("collide") for joint in scene.get("joint", [])):
+        return True
+    collides = True
+    for contact in scene.get("contact", []):
+        one, other = contact["between"][0], contact["between"][-1]
+        if any(fnmatchcase(x, one) and fnmatchcase(y, other) for x, y in ((a, b), (b, a))):
+            collides = contact.get("collide", True)
+    return not collides
 
 
 def check_overlaps(scene, folder):
@@ -64,8 +72,9 @@ def check_overlaps(scene, folder):
         return
     for path in sorted((folder / "frames").glob("solids.*.vtu")):
         found = read_surfaces(path, scene["dimension"])
-        for i, j in ((i, j) for i in found for j in found if i != j and (moves[i] or moves[j])):
-            if solids[i].get("invert") or solids[j].get("invert") or are_jointed(scene, i, j):
+        listed = [i for i in found if i < len(solids)]   # links of robots come after them
+        for i, j in ((i, j) for i in listed for j in listed if i != j and (moves[i] or moves[j])):
+            if solids[i].get("invert") or solids[j].get("invert") or may_overlap(scene, i, j):
                 continue
             depth = overlap(found[i], found[j]) / scene["domain"]["cell_size"]
             if depth > DEEPEST:
