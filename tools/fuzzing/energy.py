@@ -23,6 +23,8 @@ def is_fed(scene):
     liquid = scene.get("liquid", {})
     if kinds & {"inflow", "outflow", "moving_wall"} or "source" in liquid or "prescribed_velocity" in liquid:
         return True
+    if "force" in scene or "sponge" in liquid:
+        return True
     if not is_constant(scene.get("gravity", [0.0])):
         return True
     if feeds(scene.get("joint", []) + [j for robot in scene.get("robot", []) for j in robot.get("joint", [])]):

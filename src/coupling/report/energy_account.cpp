@@ -175,7 +175,8 @@ Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& 
   w.tension += dt * powers.tension;
   w.sides += dt * (power_of_sides(domain, fluids, before, a) + powers.feeds) + powers.work_of_sources;
   w.solids += dt * (power_of_prescribed(before, a.state, a.geometry, solids) + powers.contact) +
-              driven_work(s.solids, before, a.state, dt) + (s.forces.empty() ? 0 : work_of_forces(s, before, a));
+              driven_work(s.solids, before, a.state, dt) +
+              (s.forces.empty() && s.sponges.empty() ? 0 : work_of_forces(s, before, a));
   w.lost_viscous += heat_of_step(before, a.state, powers, dt);
   const Work& old = before.work;
   const double done = w.gravity - old.gravity + w.tension - old.tension + w.sides - old.sides + w.solids - old.solids;

@@ -130,16 +130,19 @@ double work_of_forces(const Setup<Dim>& s, const State<Dim>& before, const Attem
   const double dt = a.state.time - before.time;
   const ForcesAtFaces<Dim> at(s.domain, s.fluids, a.state.phi, a.state.time, dt);
   double sum = 0;
-  for (const Force<Dim>& force : s.forces) {
-    if (!force.acts_on_liquid()) continue;
-    for_each_face_near_liquid(s.domain, s.fluids, a.state.phi, [&](int axis, Site f, const Vec3& x) {
-      const Site below = f - s.domain.layout.stride(axis);
-      const double share = 0.5 * (liquid_share(s.domain.layout, a.state.phi, a.geometry.psi, f) +
-                                  liquid_share(s.domain.layout, a.state.phi, a.geometry.psi, below));
-      const double u = 0.5 * (before.now->u.at(axis, f) + a.state.now->u.at(axis, f));
-      if (share > 0) sum += share * u * at.acceleration(force, before.now->u, Vec3::Zero(), axis, f, x);
-    });
-  }
+  for_each_face_near_liquid(s.domain, s.fluids, a.state.phi, [&](int axis, Site f, const Vec3& x) {
+    const Site below = f - s.domain.layout.stride(axis);
+    const double share = 0.5 * (liquid_share(s.domain.layout, a.state.phi, a.geometry.psi, f) +
+                                liquid_share(s.domain.layout, a.state.phi, a.geometry.psi, below));
+    if (share <= 0) return;
+    const double was = before.now->u.at(axis, f), u = 0.5 * (was + a.state.now->u.at(axis, f));
+    for (const Force<Dim>& force : s.forces)
+      if (force.acts_on_liquid()) sum += share * u * at.acceleration(force, before.now->u, Vec3::Zero(), axis, f, x);
+    for (const Sponge& sponge : s.sponges) {
+      const double drawn = -std::expm1(-sponge.rate_at(x, a.state.time) * dt) / dt;
+      if (drawn != 0) sum += share * u * drawn * (sponge.velocity_at(axis, x, a.state.time) - was);
+    }
+  });
   return dt * s.fluids.density() * s.domain.layout.geometry().cell_volume() * s.domain.ranks.global_sum(sum);
 }
 

@@ -14,8 +14,8 @@ namespace seiche {
 template <int Dim>
 void act_on_liquid(const Setup<Dim>& setup, const CellField<Dim>& phi, double t, double dt, FaceField<Dim>& u);
 
-// Work of the forces on the liquid over the step (J; 2D: J/m), with the mean of the velocities before and after it and
-// the volume of liquid at its end. Collective.
+// Work of forces and sponges on the liquid over the step (J; 2D: J/m), with the mean of the velocities before and after
+// it and the volume of liquid at its end. Collective.
 template <int Dim>
 double work_of_forces(const Setup<Dim>& setup, const State<Dim>& before, const Attempt<Dim>& attempt);
 
