@@ -16,7 +16,7 @@ import commands
 import test_commands as tests
 from commands import TOP, pages
 
-# What is shortened in commands of docs/other-programs.md: their runs end after frame 2.
+# Changes that shorten commands of docs/other-programs.md: their runs end after frame 2.
 SHORTER = ((r"--frame \d+", "--frame 2"), (r"--samples \d+", "--samples 4"), (r"--size \d+x\d+", "--size 160x90"),
            (r"^(seiche run .*)$", r"\1 --frames 2 --overwrite"))
 NEEDED = {"blender": "blender", "pvbatch": "paraview, python3-paraview", "xvfb-run": "xvfb, xauth"}

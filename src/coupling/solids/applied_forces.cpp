@@ -10,7 +10,7 @@ namespace {
 using Twist6 = Eigen::Matrix<double, 6, 1>;  // velocity, angular velocity; or force, torque
 using Slope6 = Eigen::Matrix<double, 6, 6>;
 
-// What acts on a body that moves as a whole: force - slope V, with the twist V about its centre of mass.
+// Load on a body that moves as a whole: force - slope V, with the twist V about its centre of mass.
 struct TwistForce {
   Twist6 force = Twist6::Zero();
   Slope6 slope = Slope6::Zero();

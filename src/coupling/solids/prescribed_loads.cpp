@@ -18,7 +18,7 @@ bool is_counted(const Body<Dim>& body) {
   return !body.is_free() && !body.deforms() && !body.is_thin();
 }
 
-// What lies beside a solid, summed over the ranks: cells with liquid, with gas that has a pressure, with nothing; the
+// Surroundings of a solid, summed over the ranks: cells with liquid, with gas that has a pressure, with nothing; the
 // area of its exposed pieces and their area vector, m^(Dim-1).
 template <int Dim>
 struct Beside {
@@ -110,7 +110,7 @@ void drop_covered(double h, const std::vector<Body<Dim>>& bodies, int k, const C
   }
 }
 
-// What the loads of all solids read.
+// Inputs of the loads of all solids.
 template <int Dim>
 class PrescribedLoads {
  public:

@@ -11,7 +11,7 @@
 
 namespace seiche {
 
-// How a source moves by itself.
+// A source's own motion.
 struct SourceMotion {
   VectorExpression translate;
   Expression degrees;

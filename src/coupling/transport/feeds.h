@@ -15,7 +15,7 @@ namespace seiche {
 template <int Dim>
 double volume_of_feed(const Source<Dim>& feed, double t0, double t1);
 
-// Where feeds act: level set (m), and room for liquid of a cell beside solids, as a share of it.
+// Places of feeds: level set (m), and room for liquid of a cell beside solids, as a share of it.
 template <int Dim>
 struct FedLiquid {
   const CellField<Dim>& phi;
