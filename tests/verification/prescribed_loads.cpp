@@ -35,7 +35,7 @@ std::vector<SolidState> loads_in(const Scene& s) {
 }  // namespace
 
 // A box that stands still, half under a level anywhere in a cell. Its buoyancy is that of the part under water. Loads
-// by shares of faces alone are off by up to rho g h/2 on its bottom, 6 % here.
+// by shares of faces alone are off by up to rho g h/2 on its bottom, 10 % here.
 TEST_CASE("a static box in the surface bears the weight of the water that it displaces") {
   for (const int dim : {2, 3}) {
     const int cells = dim == 2 ? 24 : 16;

@@ -27,18 +27,14 @@ vdb::Frame ball(int n, int number) {
   frame.number = number;
   frame.time = number;
   frame.creator = "test";
-  vdb::Grid surface{"surface", vdb::GridKind::level_set, 3.0f / float(n), {}}, velocity;
+  const vdb::Grid surface{"surface", vdb::GridKind::level_set, 3.0f / float(n), {}};
   vdb::Block values{{0, 0, 0}, {n, n, n}, {}}, vectors{{0, 0, 0}, {n, n, n}, {}};
   for (int c = 0; c < n * n * n; ++c) {
     const Vec3 x((c % n + 0.5) / n, (c / n % n + 0.5) / n, (c / (n * n) + 0.5) / n);
     values.values.push_back(float(std::clamp((x - Vec3(0.7, 0.5, 0.5)).norm() - 0.25, -3.0 / n, 3.0 / n)));
     vectors.values.insert(vectors.values.end(), {1, 0, 0});
   }
-  surface.blocks.push_back(values);
-  velocity.name = "vel";
-  velocity.kind = vdb::GridKind::staggered_vector;
-  velocity.blocks.push_back(vectors);
-  frame.grids = {surface, velocity};
+  set_grids(surface, values, vectors, frame);
   return frame;
 }
 

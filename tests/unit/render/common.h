@@ -33,6 +33,16 @@ inline std::string message_of(const std::function<void()>& action) {
   return "";
 }
 
+// Gives a frame the grids `surface` and `vel`, each of one block.
+inline void set_grids(vdb::Grid surface, const vdb::Block& distances, const vdb::Block& velocities, vdb::Frame& frame) {
+  surface.blocks.push_back(distances);
+  vdb::Grid velocity;
+  velocity.name = "vel";
+  velocity.kind = vdb::GridKind::staggered_vector;
+  velocity.blocks.push_back(velocities);
+  frame.grids = {std::move(surface), std::move(velocity)};
+}
+
 inline void store(const ScratchRun& run, const vdb::Frame& frame) {
   write_file(run.folder / "frames" / ("frame.000" + std::to_string(frame.number) + ".vdb"), vdb::encode(frame));
 }

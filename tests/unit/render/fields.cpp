@@ -29,7 +29,7 @@ vdb::Frame flow(int dimension, int n, const std::function<Vec3(const Vec3&)>& u)
   frame.dimension = dimension;
   frame.cell_size = 1.0 / n;
   const int depth = dimension == 3 ? n : 1;
-  vdb::Grid surface{"surface", vdb::GridKind::level_set, 3.0f / float(n), {}}, velocity;
+  const vdb::Grid surface{"surface", vdb::GridKind::level_set, 3.0f / float(n), {}};
   vdb::Block values{{0, 0, 0}, {n, n, depth}, {}}, vectors{{0, 0, 0}, {n, n, depth}, {}};
   for (int c = 0; c < n * n * depth; ++c) {
     const Vec3 middle((c % n + 0.5) / n, (c / n % n + 0.5) / n, dimension == 3 ? (c / (n * n) + 0.5) / n : 0);
@@ -37,11 +37,7 @@ vdb::Frame flow(int dimension, int n, const std::function<Vec3(const Vec3&)>& u)
     for (int a = 0; a < 3; ++a)
       vectors.values.push_back(float(u(middle - 0.5 / n * Vec3::Unit(a * (a < dimension)))[a]));
   }
-  surface.blocks.push_back(values);
-  velocity.name = "vel";
-  velocity.kind = vdb::GridKind::staggered_vector;
-  velocity.blocks.push_back(vectors);
-  frame.grids = {surface, velocity};
+  set_grids(surface, values, vectors, frame);
   return frame;
 }
 

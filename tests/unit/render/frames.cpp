@@ -31,7 +31,7 @@ vdb::Frame sloping_water(int dimension, int n, int number, double slope) {
   frame.number = number;
   frame.creator = "test";
   const int depth = dimension == 3 ? n : 1;
-  vdb::Grid surface{"surface", vdb::GridKind::level_set, 3.0f / float(n), {}}, velocity;
+  const vdb::Grid surface{"surface", vdb::GridKind::level_set, 3.0f / float(n), {}};
   vdb::Block values{{0, 0, 0}, {n, n, depth}, {}}, vectors{{0, 0, 0}, {n, n, depth}, {}};
   for (int c = 0; c < n * n * depth; ++c) {
     const double x = (c % n + 0.5) / n, y = (c / n % n + 0.5) / n;
@@ -39,11 +39,7 @@ vdb::Frame sloping_water(int dimension, int n, int number, double slope) {
     values.values.push_back(float(std::clamp(distance, -3.0 / n, 3.0 / n)));
     vectors.values.insert(vectors.values.end(), {3, 4, 0});
   }
-  surface.blocks.push_back(values);
-  velocity.name = "vel";
-  velocity.kind = vdb::GridKind::staggered_vector;
-  velocity.blocks.push_back(vectors);
-  frame.grids = {surface, velocity};
+  set_grids(surface, values, vectors, frame);
   return frame;
 }
 
