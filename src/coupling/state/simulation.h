@@ -64,8 +64,8 @@ struct SolidState {
   Vec3 position{0, 0, 0};                         // centre of mass (Body::reference_point), m
   std::array<double, 4> orientation{1, 0, 0, 0};  // quaternion w, x, y, z
   Vec3 velocity{0, 0, 0}, angular_velocity{0, 0, 0};
-  Vec3 force{0, 0, 0}, torque{0, 0, 0};          // from the fluid, N and N m about position
-  Vec3 pin_force{0, 0, 0}, pin_torque{0, 0, 0};  // likewise, from the pins of an elastic solid
+  Vec3 force{0, 0, 0}, torque{0, 0, 0};                // from the fluid, N and N m about position
+  Vec3 pin_force{0, 0, 0}, pin_torque{0, 0, 0};        // likewise, from the pins of an elastic solid
   Vec3 unseen_force{0, 0, 0}, unseen_torque{0, 0, 0};  // part of both that the solve, with faces of the grid, misses
 };
 
