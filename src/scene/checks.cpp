@@ -191,7 +191,7 @@ void check_gas(const Checker& c, const Scene& scene) {
 // Reports what excludes volumes carried in cells.
 void check_volume(const Checker& c, const Scene& scene) {
   if (scene.liquid.volume != VolumeKeeping::in_cells) return;
-  const std::vector<std::pair<const char*, bool>> all{{"[gas]", scene.gas.present},
+  const std::vector<std::pair<const char*, bool>> all{{"gas.bubbles = \"volume_conserving\"", scene.gas.present && !scene.gas.flows()},
                                                       {"liquid.separates = true", scene.liquid.separates}};
   std::vector<std::string> names;
   for (const auto& [name, given] : all)

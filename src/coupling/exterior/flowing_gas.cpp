@@ -80,6 +80,11 @@ class FlowingGas : public Exterior<Dim> {
     return flow_at_surface(domain, fluids, state);
   }
 
+  FaceField<Dim> volume_velocity(const Domain<Dim>& domain, const Fluids& fluids,
+                                 const State<Dim>& state) const override {
+    return joined_level(domain, fluids, state)->u;
+  }
+
   Transported<Dim> transported_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi,
                                         double dt, const ViscousPlan& plan, const StepGeometry<Dim>& g) const override {
     const FaceField<Dim, char> all(s.domain.layout, 1);

@@ -203,7 +203,7 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
   out.state.gap_flow = measure_gap_flow(s.domain, out.geometry.faces, level->u);
   if (end) place_at(end->geometry, out.geometry);
   FaceField<Dim, char> near = faces_near_liquid(s.domain, phi);
-  if (s.volume_lags()) {
+  if (s.volume_meets_void()) {
     const std::vector<Site> drifting = drifting_cells(s.domain, phi, out.state.liquid);
     take_drifting(s.domain, out.geometry.faces, drifting, task.predicted.u_star, *level);
     mark_faces(s.domain.layout, drifting, near);
@@ -306,7 +306,7 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow, gravity, times.dt, p.u_star);
   if (moved.closed)
     keep_inertia_near_closed(s.domain, moved.geometry.faces, *moved.closed, before, phi, gravity, times.dt, p.u_star);
-  if (s.volume_lags())
+  if (s.volume_meets_void())
     let_drift(s.domain, moved.geometry.faces, moved.state.liquid, drifting_cells(s.domain, phi, moved.state.liquid),
               before.now->u, s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt,
               p.u_star);

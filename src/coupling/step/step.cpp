@@ -51,7 +51,7 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double 
   Predicted<Dim> predicted = predict_velocity(s, before, moved, times, phases);
   if (!predicted.failure.empty()) return failed<Dim>(predicted.failure);
   const std::optional<CellField<Dim, char>> closed = std::exchange(moved.closed, std::nullopt);
-  Attempt<Dim> solved = s.volume_lags()
+  Attempt<Dim> solved = s.volume_meets_void()
                             ? solve_within_room(s, before, std::move(moved), std::move(predicted), times, phases)
                             : solve_and_plan(s, before, std::move(moved), predicted, times, phases);
   if (s.volume_lags()) solved.state.liquid_phi = solved.state.phi;
