@@ -188,19 +188,6 @@ void check_gas(const Checker& c, const Scene& scene) {
                                "would flow into the gap where liquid separates from a solid; remove separates");
 }
 
-// Reports what excludes volumes carried in cells.
-void check_volume(const Checker& c, const Scene& scene) {
-  if (scene.liquid.volume != VolumeKeeping::in_cells) return;
-  const std::vector<std::pair<const char*, bool>> all{{"gas.bubbles = \"volume_conserving\"", scene.gas.present && !scene.gas.flows()},
-                                                      {"liquid.separates = true", scene.liquid.separates}};
-  std::vector<std::string> names;
-  for (const auto& [name, given] : all)
-    if (given) names.emplace_back(name);
-  if (names.empty()) return;
-  c.report("liquid.volume",
-           fmt::format("liquid.volume = \"cells\" does not work with {} yet; use \"shift\"", fmt::join(names, ", ")));
-}
-
 // Height maps without an axis of their own rise against gravity, to the axis nearest to that.
 void set_axes_of_height_maps(Scene& scene) {
   Eigen::Index axis = 1;
@@ -247,7 +234,6 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
   if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene);
   if (context.clean("gas") && context.clean("liquid") && context.clean("solid")) {
-    check_volume(c, scene);
     check_prescribed_flow(context, root, scene);
     if (context.clean("time")) check_rates(context, root, scene);
   }

@@ -29,7 +29,15 @@ class EnclosedAir : public Exterior<Dim> {
     return control_volumes(domain, g, expected, limit, air_, phi);
   }
 
-  void set_rows(const Fluids&, const OperatorPerturbation&, ProjectionInput<Dim>& in) const override { in.air = &air_; }
+  void weigh(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim>& phi,
+             const CellField<Dim>& share, const Room<Dim>& room) override {
+    air_.excess = excess_of_air(domain, g, phi, share, room, air_);
+  }
+
+  void set_rows(const Fluids&, const OperatorPerturbation&, ProjectionInput<Dim>& in) const override {
+    in.air = &air_;
+    if (in.share) in.air_inflow = inflow_of_air(in, air_);
+  }
 
   bool has_pressure(Site cell) const override { return air_.label[cell] >= 0; }
 
@@ -39,12 +47,16 @@ class EnclosedAir : public Exterior<Dim> {
     // Regions whose air lies in cut cells, inside the solid, have no volume.
     stats.bubbles = std::count_if(volumes.begin(), volumes.end() - 1, [](double v) { return v > 0; });
     stats.gas_volume = std::accumulate(volumes.begin(), volumes.end() - 1, 0.0);
+    if (!air_.excess.empty())
+      stats.gas_volume = std::accumulate(air_.volume.begin(), air_.volume.end(), 0.0) +
+                         std::accumulate(air_.excess.begin(), air_.excess.end(), 0.0);
     stats.air_lost = lost_;
   }
 
   void visit(const Domain<Dim>& domain, const Fluids&, int, FieldVisitor<Dim>& visitor) override {
     visitor.field("air", domain.layout.cells(), air_.label);
     visitor.numbers("air.volume", air_.volume);
+    visitor.numbers("air.excess", air_.excess);
     visitor.number("air.lost", lost_);
     if (visitor.loads()) domain.halo.fill_ghosts({air_.label.data()});
   }

@@ -59,6 +59,11 @@ class Exterior {
   virtual double control_volume(const Domain<Dim>&, const StepGeometry<Dim>&, double expected, double limit,
                                 CellField<Dim>& phi);
 
+  // Measures how far volumes that the exterior keeps are from those they should have. `share`: of the liquid in cells.
+  // Collective.
+  virtual void weigh(const Domain<Dim>&, const StepGeometry<Dim>&, const CellField<Dim>& /*phi*/,
+                     const CellField<Dim>& /*share*/, const Room<Dim>&) {}
+
   // Velocity of all fluids before the projection, and their accelerations: transport_velocity() without sources.
   // Collective.
   virtual Transported<Dim> transported_velocity(const Setup<Dim>&, const State<Dim>&, const CellField<Dim>& phi,

@@ -48,14 +48,16 @@ struct Setup {
   }
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }
-  // True if volumes are carried, and cells beyond the surface have no pressure: liquid may fly there and fill them.
+  // True if volumes are carried, and liquid beyond the surface flies freely.
   bool volume_meets_void() const { return volume_lags() && !fluids.has_gas(); }
   // True if initial velocities need not fit the solids, the sides that volumes pass, the feeds and the gas.
   bool volume_sets_off() const {
     return volume_lags() && (!solids.bodies.empty() || domain.sides.any_passes() || !feeds.empty() || fluids.has_gas());
   }
   // True if the room for liquid in cells changes, State::open.
-  bool room_changes() const { return tracks_volume() && !solids.bodies.empty() && !open_parts; }
+  bool room_changes() const {
+    return tracks_volume() && (fluids.liquid.separates || !solids.bodies.empty()) && !open_parts;
+  }
   Divergence divergence() const { return fluids.has_prescribed_flow() ? Divergence::swells : Divergence::stays; }
 };
 

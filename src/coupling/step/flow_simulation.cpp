@@ -330,7 +330,9 @@ class FlowSimulation : public Simulation {
     stats.dt = state.dt_now;
     measure_fluids(setup_->domain, setup_->fluids, state, geometry.psi, stats);
     if (setup_->tracks_volume()) {
-      stats.liquid_volume = tracked_volume(setup_->domain, state);
+      const double tracked = tracked_volume(setup_->domain, state);
+      if (setup_->fluids.has_gas()) stats.gas_volume += stats.liquid_volume - tracked;
+      stats.liquid_volume = tracked;
       stats.volume_drifting = drifting_volume(setup_->domain, state);
       stats.volume_spilled = state.spilled_volume;
     }

@@ -210,7 +210,7 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
   features = Features(*this);
   if (!tracks_volume() || solids.bodies.empty()) return;
   refuse_thin(solids);
-  if (any_moves(solids)) return;
+  if (any_moves(solids) || fluids.liquid.separates) return;
   const StepGeometry<Dim> still = solids.geometry.measure(std::vector<Placement>(solids.bodies.size()), 0);
   open_parts =
       std::make_shared<OpenParts<Dim>>(measure_open_parts(domain.layout, domain.halo, still.psi, still.faces.open));

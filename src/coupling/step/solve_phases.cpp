@@ -362,9 +362,10 @@ Attempt<Dim> solve_within_room(const Setup<Dim>& s, const State<Dim>& before, Mo
     if (!out.failure.empty()) return out;
     const auto timed = phases.timers.measure("surface");
     if (solves == most_solves ||
-        !add_filling_cells(s.domain, out.geometry.faces,
-                           {moved.state.liquid, before.now->u, gravity, times.dt, moved.state.room()}, out.state.now->u,
-                           moved.state.phi, predicted.u_star, predicted.filling)) {
+        !add_filling_cells(
+            s.domain, out.geometry.faces,
+            {moved.state.liquid, before.now->u, gravity, times.dt, moved.state.room(), &*moved.state.exterior},
+            out.state.now->u, moved.state.phi, predicted.u_star, predicted.filling)) {
       if (!predicted.filling.empty()) out.state.phi = std::move(predicted.filling.phi);
       return out;
     }

@@ -97,12 +97,19 @@ std::shared_ptr<const EndOfStep<Dim>> find_end(const Domain<Dim>& domain, const 
   return end_of_step(domain, solids, known, moved.state, moved.geometry, times.dt);
 }
 
-// Room in cells where the solids are at the solve, and through faces where its velocities fit them.
+// Room in cells where the solids are at the solve, less gaps at walls, and through faces where its velocities fit them.
 template <int Dim>
 std::shared_ptr<const OpenParts<Dim>> room_at_solve(const Domain<Dim>& domain, const Moved<Dim>& moved) {
   const StepGeometry<Dim>& fitted = moved.end ? moved.end->geometry : moved.geometry;
-  return std::make_shared<OpenParts<Dim>>(
+  auto parts = std::make_shared<OpenParts<Dim>>(
       measure_open_parts(domain.layout, domain.halo, moved.geometry.psi, fitted.faces.open));
+  if (moved.state.separation.gap.empty()) return parts;
+  for (const Site c : listed_possible(
+           domain.layout, domain.layout.cells(), [](Site) { return true; },
+           [&](Site cell) { return moved.state.separation.gap[cell] > 0; }))
+    parts->cells.set(c, std::max(0.0, parts->cells[c] - moved.state.separation.gap[c]));
+  fill_open_ghosts(domain.layout, domain.halo, *parts);
+  return parts;
 }
 
 // Empty volume at walls that phi still counts as liquid, m^Dim.
@@ -224,7 +231,11 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   const auto timed = phases.timers.measure("surface");
   State<Dim>& next = moved.state;
   const StepGeometry<Dim>& geometry = moved.geometry;
-  if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, {s.divergence(), next.room()}, next);
+  if (s.tracks_volume()) {
+    couple_liquid(s.domain, geometry.psi, {s.divergence(), next.room()}, next);
+    next.exterior->follow(s.domain, geometry, before.now->u, times.looks_ahead() ? 0 : times.dt, next.phi);
+    return next.exterior->weigh(s.domain, geometry, next.phi, next.liquid, next.room());
+  }
   next.expected_volume += times.lead * net_inflow(s.domain, geometry, before.phi, before.now->u);
   book_feeds(s, before, geometry, times.start, times.start + times.lead, next);
   keep_sides_of_walls(s.domain, geometry, next.phi);

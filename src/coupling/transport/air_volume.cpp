@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <map>
+#include <numeric>
 
 #include "coupling/transport/transport.h"
 #include "fluid/boundary/domain.h"
@@ -169,7 +170,8 @@ std::vector<double> air_volumes(const Domain<Dim>& domain, const AirRegions<Dim>
 template <int Dim>
 AirRegions<Dim> initial_air(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
   AirRegions<Dim> air = find_air_regions(domain.layout, domain.halo, domain.ranks, phi, g.faces);
-  std::vector<double> measured = air_volumes(domain, air, g.psi, phi);
+  std::vector<double> measured =
+      volumes_of(domain, nearest_regions(domain, air, phi, &g.faces), air.count(), g.psi, phi, 0);
   measured.pop_back();
   air.volume = std::move(measured);
   return air;
@@ -210,12 +212,45 @@ double control_volumes(const Domain<Dim>& domain, const StepGeometry<Dim>& g, do
   return liquid_volume(domain, phi, g.psi) - liquid;
 }
 
+template <int Dim>
+std::vector<double> excess_of_air(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim>& phi,
+                                  const CellField<Dim>& share, const Room<Dim>& room, const AirRegions<Dim>& air) {
+  const auto near = nearest_regions(domain, air, phi, &g.faces);
+  std::vector<double> volume(air.volume.size() + 1);
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) {
+    if (near[c] >= 0) volume[std::size_t(near[c])] += room.of(c) - share[c];
+  });
+  volume.pop_back();
+  domain.ranks.global_sum(volume);
+  for (std::size_t k = 0; k < volume.size(); ++k)
+    volume[k] = volume[k] * domain.layout.geometry().cell_volume() - air.volume[k];
+  return volume;
+}
+
+template <int Dim>
+std::vector<double> inflow_of_air(const ProjectionInput<Dim>& in, const AirRegions<Dim>& air) {
+  const double per_volume = in.layout.h() / (in.layout.geometry().cell_volume() * in.excess_time);
+  std::vector<double> inflow;
+  for (const double excess : air.excess) inflow.push_back(-per_volume * excess);
+  const double enclosed = std::accumulate(air.volume.begin(), air.volume.end(), 0.0);
+  if (air.any_open || enclosed == 0) return inflow;
+  const double into_liquid = in.ranks.global_sum(local_sum(in.layout, in.layout.cells(), [&](Site c, const IVec<Dim>&) {
+    return in.is_liquid(c) ? in.missing_flux(c) : 0.0;
+  }));
+  const double left = into_liquid + std::accumulate(inflow.begin(), inflow.end(), 0.0);
+  for (std::size_t k = 0; k < inflow.size(); ++k) inflow[k] -= left * air.volume[k] / enclosed;
+  return inflow;
+}
+
 #define SEICHE_INSTANTIATE(D)                                                                                  \
   template std::vector<double> air_volumes<D>(const Domain<D>&, const AirRegions<D>&, const NodeField<D>&,     \
                                               const CellField<D>&);                                            \
   template AirRegions<D> initial_air<D>(const Domain<D>&, const StepGeometry<D>&, const CellField<D>&);        \
   template AirRegions<D> follow_air<D>(const Domain<D>&, const AirRegions<D>&, const FaceField<D>&, double,    \
                                        const StepGeometry<D>&, const CellField<D>&, double&);                  \
+  template std::vector<double> excess_of_air<D>(const Domain<D>&, const StepGeometry<D>&, const CellField<D>&, \
+                                                const CellField<D>&, const Room<D>&, const AirRegions<D>&);    \
+  template std::vector<double> inflow_of_air<D>(const ProjectionInput<D>&, const AirRegions<D>&);              \
   template double control_volumes<D>(const Domain<D>&, const StepGeometry<D>&, double, double, AirRegions<D>&, \
                                      CellField<D>&);
 SEICHE_INSTANTIATE(2)

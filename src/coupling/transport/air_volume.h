@@ -22,6 +22,19 @@ template <int Dim>
 std::vector<double> air_volumes(const Domain<Dim>& domain, const AirRegions<Dim>& air, const NodeField<Dim>& psi,
                                 const CellField<Dim>& phi);
 
+// Volume of air near each region beyond its target, m^Dim: what the liquid leaves of the room in cells. `share`: of the
+// liquid. Collective.
+template <int Dim>
+std::vector<double> excess_of_air(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry,
+                                  const CellField<Dim>& phi, const CellField<Dim>& share, const Room<Dim>& room,
+                                  const AirRegions<Dim>& air);
+
+// Flux into each region that brings it to its target within in.excess_time, per face area, m/s. Without open air the
+// regions share what the liquid takes or leaves in all, in proportion to their volumes: the fluxes of a closed box add
+// up to zero. Collective.
+template <int Dim>
+std::vector<double> inflow_of_air(const ProjectionInput<Dim>& in, const AirRegions<Dim>& air);
+
 // Shifts phi around each region so that it has its volume. Shifts phi at open surfaces so that the liquid has the
 // expected volume (m^Dim). Shifts are at most `limit` (m). Without open air both cannot hold: the regions then share
 // the space that the liquid leaves, in proportion to their volumes. Returns the liquid restored, m^Dim. Fills ghosts.

@@ -195,8 +195,10 @@ bool add_filling_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces
   const CellField<Dim>& level = filling.empty() ? phi : filling.phi;
   const std::vector<Site> surface = cells_at_surface(l, level, phi);
   std::vector<FillingCell> cells;
+  const auto may_fill = [&](Site c) { return !step.exterior || !step.exterior->has_pressure(c); };
   for (const Site c : surface)
-    if (const auto air = air_if_overfull(l, faces, step, level, u, c)) cells.push_back({c, *air});
+    if (const auto air = may_fill(c) ? air_if_overfull(l, faces, step, level, u, c) : std::nullopt)
+      cells.push_back({c, *air});
   if (!domain.ranks.any(!cells.empty()) || !has_other_surface(domain, phi, surface, cells)) return false;
   predict_faces(domain, faces, step, cells, phi, u_star);
   if (filling.empty()) filling = {CellField<Dim>(l), phi};

@@ -23,6 +23,7 @@ struct FillingStep {
   Vec3 gravity;
   double dt;
   Room<Dim> room = {};
+  const Exterior<Dim>* exterior = nullptr;  // cells of air with a pressure do not fill; null: there are none
 };
 
 // Finds cells with phi >= 0 (m) beside liquid that have no room for what the flow u (m/s) brings. Adds them to

@@ -19,7 +19,9 @@ struct AirRegions {
   CellField<Dim, std::int64_t> label;
   std::vector<std::pair<std::int64_t, Site>> home;  // number and first cell of the regions whose row this rank owns
   std::vector<double> volume;                       // target volume of each region, m^Dim, equal on all ranks
-  bool any_open = false;                            // over all ranks
+  // Volume of each region beyond its target, m^Dim, equal on all ranks. Only where volumes are carried in cells.
+  std::vector<double> excess;
+  bool any_open = false;  // over all ranks
 
   std::int64_t count() const { return std::int64_t(volume.size()); }
 };

@@ -188,7 +188,7 @@ std::vector<double> pressure_right_side(const ProjectionInput<Dim>& in, const Pr
   if (of_air.empty()) return b;
   in.ranks.global_sum(of_air);
   for (std::size_t n = rows.liquid; n < b.size(); ++n)
-    b[n] = of_air[std::size_t(rows.region(rows.cells[n]))] - scale * b[n];
+    b[n] = of_air[std::size_t(rows.region(rows.cells[n]))] - scale * (b[n] + missing_flux(in, rows, n));
   return b;
 }
 
@@ -255,7 +255,7 @@ double max_divergence(const ProjectionInput<Dim>& in, const PressureRows<Dim>& r
   const std::vector<double> flux = net_fluxes(in, rows, u);
   double largest = 0;
   for (std::size_t n = 0; n < flux.size(); ++n)
-    largest = std::max(largest, std::abs(flux[n] + (n < rows.liquid ? in.missing_flux(rows.cells[n]) : 0)));
+    largest = std::max(largest, std::abs(flux[n] + missing_flux(in, rows, n)));
   return in.ranks.global_max(largest) / in.layout.h();
 }
 

@@ -35,6 +35,7 @@ struct ProjectionInput {
   Room<Dim> room = {};
   double excess_time = 0;
   const CellField<Dim>* filling = nullptr;  // inflow that fills cells, per face area, m/s; null: none
+  std::vector<double> air_inflow = {};      // into each region of air, per face area, m/s; empty: none
 
   // FaceGeometry::entry_factor of the step. u* has it already.
   double entry_factor(int axis, Site face) const { return faces.entry_factor(axis, face, dt / layout.h()); }
@@ -78,6 +79,13 @@ struct PressureRows {
   bool touch_pressure(Site low, Site high) const { return has_pressure(low) || has_pressure(high); }
   bool owns(Row r) const { return r >= first && r < first + Row(cells.size()); }
 };
+
+// Inflow that row n lacks, of a cell or a region of air, per face area, m/s.
+template <int Dim>
+double missing_flux(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, std::size_t n) {
+  if (n < rows.liquid) return in.missing_flux(rows.cells[n]);
+  return in.air_inflow.empty() ? 0 : in.air_inflow[std::size_t(rows.region(rows.cells[n]))];
+}
 
 // sum_f +- of_face(axis, f) + of_cell(cell) for each row. A region of air sums over its cells, without the faces
 // between them. Collective.

@@ -325,6 +325,7 @@ void assemble_divergence(const ViscousInput<Dim>& in, const FaceField<Dim>& drag
     r.schur_mass.push_back(mobility > 0 ? 1 / mobility : 0);
     append_row(entries, r.D);
   }
+  for (std::size_t n = in.rows.liquid; n < r.q.size(); ++n) r.q[n] += missing_flux(in.projection, in.rows, n);
   for (double& known : r.q) known *= -area;
 }
 

@@ -27,7 +27,7 @@ Difference<Dim>::Difference(const Layout<Dim>& layout, const NodeField<Dim>& psi
     if (std::abs(phi[c]) < reached * h) {
       const VolumeAndArea found = share_and_area(layout, phi, psi, c);
       area[c] = found.area;
-      missing[c] = is_deep(layout, ledger, phi, share, c) ? 0 : v - found.volume;
+      missing[c] = is_deep(layout, ledger, phi, share, c) ? 0 : v - std::min(found.volume, room.of(c));
     } else if (const double by_level_set = phi[c] < 0 ? room.of(c) : 0;
                v != by_level_set && !is_deep(layout, ledger, phi, share, c)) {
       missing[c] = v - by_level_set;
