@@ -80,9 +80,9 @@ class FlowingGas : public Exterior<Dim> {
     return flow_at_surface(domain, fluids, state);
   }
 
-  FaceField<Dim> volume_velocity(const Domain<Dim>& domain, const Fluids& fluids,
-                                 const State<Dim>& state) const override {
-    return joined_level(domain, fluids, state)->u;
+  FaceField<Dim> volume_velocity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                                 double span) const override {
+    return flow_of_volumes(domain, fluids, state, span);
   }
 
   Transported<Dim> transported_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi,

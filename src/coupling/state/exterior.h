@@ -45,10 +45,10 @@ class Exterior {
 
   // Velocity that transports the surface from `state`, m/s. Default: the liquid's. Collective.
   virtual FaceField<Dim> surface_velocity(const Domain<Dim>&, const Fluids&, const State<Dim>& state) const;
-  // Velocity that carries the volumes of cells from `state`, m/s: of each fluid where it is, free of divergence where a
-  // cell has a pressure. Default: that of the surface. Collective.
-  virtual FaceField<Dim> volume_velocity(const Domain<Dim>& domain, const Fluids& fluids,
-                                         const State<Dim>& state) const {
+  // Velocity that carries the volumes of cells from `state` over `span` (s), m/s. Default: that of the surface.
+  // Collective.
+  virtual FaceField<Dim> volume_velocity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                                         double /*span*/) const {
     return surface_velocity(domain, fluids, state);
   }
   // Follows the surface to phi, dt (s) after the last call, along the velocity u (m/s); dt = 0: in place. Collective.

@@ -151,9 +151,10 @@ std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const F
   const double from = before.time - before.since_solve;
   const PlacedSources<Dim> sources(s, known, known.time - known.since_solve);
   const CellValues brought = brought_by_feeds(s.domain, sources.feeds(), FedLiquid<Dim>(known), from, from + span);
-  return carry_liquid(s.domain, sets_off ? known.exterior->volume_velocity(s.domain, s.fluids, known) : u,
-                      known.gap_flow, s.perturbation.surface_advection * span, {s.divergence(), room, next.room()},
-                      brought, before, next);
+  std::optional<FaceField<Dim>> of_trial;
+  if (sets_off) of_trial = known.exterior->volume_velocity(s.domain, s.fluids, known, span);
+  return carry_liquid(s.domain, of_trial ? *of_trial : u, known.gap_flow, s.perturbation.surface_advection * span,
+                      {s.divergence(), room, next.room()}, brought, before, next);
 }
 
 // Volumes of cells from their last time to that of the solve. Empty, or what fails.
@@ -162,9 +163,10 @@ std::string move_volumes(const Setup<Dim>& s, const State<Dim>& before, const Fa
                          const StepGeometry<Dim>& geometry, State<Dim>& next) {
   if (!s.tracks_volume()) return {};
   const double from = times.start - before.since_solve, until = times.start + times.lead;
+  const double span = before.since_solve + times.lead;
   std::optional<FaceField<Dim>> of_both;
-  if (s.fluids.has_gas()) of_both = before.exterior->volume_velocity(s.domain, s.fluids, before);
-  std::string fault = carry_volumes(s, before, of_both ? *of_both : u, before.since_solve + times.lead, next);
+  if (s.fluids.has_gas()) of_both = before.exterior->volume_velocity(s.domain, s.fluids, before, span);
+  std::string fault = carry_volumes(s, before, of_both ? *of_both : u, span, next);
   next.expected_volume += add_source_shares(s.domain, PlacedSources<Dim>(s, next, until).openings(), geometry.psi, from,
                                             until, next.liquid);
   return fault;

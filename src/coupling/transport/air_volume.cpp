@@ -231,7 +231,7 @@ template <int Dim>
 std::vector<double> inflow_of_air(const ProjectionInput<Dim>& in, const AirRegions<Dim>& air) {
   const double per_volume = in.layout.h() / (in.layout.geometry().cell_volume() * in.excess_time);
   std::vector<double> inflow;
-  for (const double excess : air.excess) inflow.push_back(-per_volume * excess);
+  for (const double excess : air.excess) inflow.push_back(per_volume * excess);
   const double enclosed = std::accumulate(air.volume.begin(), air.volume.end(), 0.0);
   if (air.any_open || enclosed == 0) return inflow;
   const double into_liquid = in.ranks.global_sum(local_sum(in.layout, in.layout.cells(), [&](Site c, const IVec<Dim>&) {

@@ -123,9 +123,10 @@ double share_where_from(const Layout<Dim>& layout, const FillingStep<Dim>& step,
 }
 
 // Air that what flows into a cell brings along, as a share of the cell, if there is too much liquid in it for the cell;
-// else none. It comes from a region of the volume K - dt/h sum +- w u. Solids leave the cell K + dt/h sum +- s v.
+// else none. It comes from a region of the volume K - dt/h sum +- w u. Solids leave the cell K + dt/h sum +- s v; K
+// where `faces` is null.
 template <int Dim>
-std::optional<double> air_if_overfull(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces,
+std::optional<double> air_if_overfull(const Layout<Dim>& layout, const FaceGeometry<Dim>* faces,
                                       const FillingStep<Dim>& step, const CellField<Dim>& phi, const FaceField<Dim>& u,
                                       Site c) {
   double region = step.room.of(c), room = region;
@@ -133,7 +134,7 @@ std::optional<double> air_if_overfull(const Layout<Dim>& layout, const FaceGeome
     const Site high = c + layout.stride(a);
     const double scale = step.dt / layout.h();
     region += scale * (step.room.through(a, c) * u.at(a, c) - step.room.through(a, high) * u.at(a, high));
-    room += scale * (faces.closed_flux.at(a, high) - faces.closed_flux.at(a, c));
+    if (faces) room += scale * (faces->closed_flux.at(a, high) - faces->closed_flux.at(a, c));
   }
   if (region <= room + margin && step.share[c] <= room + margin) return {};
   const double liquid = region * share_where_from(layout, step, phi, u, c);
@@ -189,6 +190,14 @@ void predict_faces(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, co
 }  // namespace
 
 template <int Dim>
+std::vector<Site> overfull_cells(const Domain<Dim>& domain, const FillingStep<Dim>& step, const FaceField<Dim>& u,
+                                 const CellField<Dim>& phi) {
+  std::vector<Site> cells = cells_at_surface(domain.layout, phi, phi);
+  std::erase_if(cells, [&](Site c) { return !air_if_overfull<Dim>(domain.layout, nullptr, step, phi, u, c); });
+  return cells;
+}
+
+template <int Dim>
 bool add_filling_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FillingStep<Dim>& step,
                        const FaceField<Dim>& u, CellField<Dim>& phi, FaceField<Dim>& u_star, Filling<Dim>& filling) {
   const Layout<Dim>& l = domain.layout;
@@ -197,7 +206,7 @@ bool add_filling_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces
   std::vector<FillingCell> cells;
   const auto may_fill = [&](Site c) { return !step.exterior || !step.exterior->has_pressure(c); };
   for (const Site c : surface)
-    if (const auto air = may_fill(c) ? air_if_overfull(l, faces, step, level, u, c) : std::nullopt)
+    if (const auto air = may_fill(c) ? air_if_overfull(l, &faces, step, level, u, c) : std::nullopt)
       cells.push_back({c, *air});
   if (!domain.ranks.any(!cells.empty()) || !has_other_surface(domain, phi, surface, cells)) return false;
   predict_faces(domain, faces, step, cells, phi, u_star);
@@ -210,8 +219,10 @@ bool add_filling_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces
   return true;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                         \
-  template bool add_filling_cells<D>(const Domain<D>&, const FaceGeometry<D>&, const FillingStep<D>&, \
+#define SEICHE_INSTANTIATE(D)                                                                                \
+  template std::vector<Site> overfull_cells<D>(const Domain<D>&, const FillingStep<D>&, const FaceField<D>&, \
+                                               const CellField<D>&);                                         \
+  template bool add_filling_cells<D>(const Domain<D>&, const FaceGeometry<D>&, const FillingStep<D>&,        \
                                      const FaceField<D>&, CellField<D>&, FaceField<D>&, Filling<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -26,6 +26,12 @@ struct FillingStep {
   const Exterior<Dim>* exterior = nullptr;  // cells of air with a pressure do not fill; null: there are none
 };
 
+// Cells with phi >= 0 (m) beside liquid that have no room for what the flow u (m/s) brings, with solids where they are;
+// those of the first layer around the owned ones, too. Local.
+template <int Dim>
+std::vector<Site> overfull_cells(const Domain<Dim>& domain, const FillingStep<Dim>& step, const FaceField<Dim>& u,
+                                 const CellField<Dim>& phi);
+
 // Finds cells with phi >= 0 (m) beside liquid that have no room for what the flow u (m/s) brings. Adds them to
 // `filling`, but for those with a host (Room); sets phi < 0 there, and u* on their faces. Returns false if there are
 // none, or no other air beside liquid: in a closed box its volume could not change. Collective.

@@ -1,6 +1,7 @@
 #include "coupling/transport/two_fluids.h"
 
 #include "coupling/state/fluids.h"
+#include "coupling/transport/filling.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/viscosity/viscous_shares.h"
 #include "grid/loops.h"
@@ -45,6 +46,14 @@ double reynolds_number_of_cell(const Domain<Dim>& domain, const Fluids& fluids, 
          h / nu;
 }
 
+// 1 where viscosity makes both fluids one flow on the scale of the grid, 0 where they may slip along each other.
+// Collective.
+template <int Dim>
+double share_of_both(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
+  constexpr double resolved = 10;
+  return std::clamp(2 - reynolds_number_of_cell(domain, fluids, state) / resolved, 0.0, 1.0);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -84,12 +93,28 @@ FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, 
   const TimeLevel<Dim>& of_gas = *state.exterior->flow.now;
   if (flow_as_one(fluids)) return of_levels(domain, state.phi, *state.now, of_gas, &TimeLevel<Dim>::u);
   FaceField<Dim> u = state.now->u;
-  constexpr double resolved = 10;
-  const double share = std::clamp(2 - reynolds_number_of_cell(domain, fluids, state) / resolved, 0.0, 1.0);
+  const double share = share_of_both(domain, fluids, state);
   if (share == 0) return u;
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.padded(),
                   [&](Site f) { u.at(a, f) += 0.5 * share * (of_gas.u.at(a, f) - u.at(a, f)); });
+  return u;
+}
+
+template <int Dim>
+FaceField<Dim> flow_of_volumes(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, double span) {
+  const TimeLevel<Dim>& gas = *state.exterior->flow.now;
+  const FaceField<Dim> joined = of_levels(domain, state.phi, *state.now, gas, &TimeLevel<Dim>::u);
+  const double share = flow_as_one(fluids) ? 1 : share_of_both(domain, fluids, state);
+  if (share == 1) return joined;
+  FaceField<Dim> u = joined;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(domain.layout, domain.layout.padded(),
+                  [&](Site f) { u.at(a, f) = share * joined.at(a, f) + (1 - share) * state.now->u.at(a, f); });
+  for (const Site c : overfull_cells<Dim>(domain, {state.liquid, u, Vec3::Zero(), span, state.room()}, u, state.phi))
+    for (int a = 0; a < Dim; ++a)
+      for (const Site f : {c, c + domain.layout.stride(a)}) u.at(a, f) = joined.at(a, f);
+  domain.halo.fill_ghosts(u);
   return u;
 }
 
@@ -113,6 +138,7 @@ void mix_gas_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const Ce
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template FaceField<D> flow_at_surface<D>(const Domain<D>&, const Fluids&, const State<D>&);                         \
+  template FaceField<D> flow_of_volumes<D>(const Domain<D>&, const Fluids&, const State<D>&, double);                 \
   template Flow<D> flow_of_both<D>(const Domain<D>&, const Fluids&, const State<D>&);                                 \
   template std::shared_ptr<const TimeLevel<D>> level_of_both<D>(const Domain<D>&, const Fluids&, const CellField<D>&, \
                                                                 const std::shared_ptr<const TimeLevel<D>>&,           \

@@ -32,6 +32,12 @@ Flow<Dim> flow_of_both(const Domain<Dim>& domain, const Fluids& fluids, const St
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state);
 
+// Velocity that carries the volumes of cells over `span` (s), m/s. On faces that were solved for in the gas it is the
+// liquid's, extrapolated, or that of the gas, as flow_at_surface() tells; faces of cells that have no room for what the
+// liquid's would bring have the gas's, which is free of divergence. Collective.
+template <int Dim>
+FaceField<Dim> flow_of_volumes(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, double span);
+
 // Liquid share of a box of width h around a point at signed distance phi (m) from a plane surface.
 inline double liquid_share_at(double phi, double h) {
   return std::clamp(0.5 - phi / h, 0.0, 1.0);
