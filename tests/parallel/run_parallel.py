@@ -194,6 +194,13 @@ DAM_IN_CELLS_3D = (DAM_IN_CELLS.replace("dimension = 2", "dimension = 3").replac
                    .replace("[1.0, 0.8]", "[1.0, 0.8, 0.65]").replace("[0.38, 0.5]", "[0.38, 0.5, 0.42]")
                    .replace("cell_size = 0.04", "cell_size = 0.05"))
 
+GAS_IN_CELLS = DAM_IN_CELLS + "[gas]\ndensity = 1.2\n"
+BUBBLE_IN_CELLS = DAM_IN_CELLS.replace(
+    'shape = "box"\nlower = [0.0, 0.0]\nupper = [0.38, 0.5]',
+    'shape = "expression"\nphi = "max(0.14-sqrt((x-0.42)^2+(y-0.25)^2), y-0.5)"') + '[gas]\nbubbles = "volume_conserving"\n'
+PARTING_IN_CELLS = (DAM_IN_CELLS.replace("dimension = 2", "dimension = 2\ngravity = [6.0, 9.81]")
+                    .replace("[liquid]\n", "[liquid]\nseparates = true\n"))
+
 POST_IN_CELLS = DAM_IN_CELLS.replace("fixed_step = 0.01", "fixed_step = 0.005") + """\
 [[solid]]
 name = "post"
@@ -439,6 +446,21 @@ def volumes_ranks_agree_2d(bench):
     ranks_agree(bench, DAM_IN_CELLS, (2, 3))
 
 
+def volumes_under_gas_agree(bench):
+    """A dam break with volumes in cells into gas, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, GAS_IN_CELLS, (2, 3))
+
+
+def volumes_round_bubble_agree(bench):
+    """An enclosed bubble with volumes in cells, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, BUBBLE_IN_CELLS, (2, 3))
+
+
+def volumes_that_part_agree(bench):
+    """Liquid with volumes in cells that leaves walls, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, PARTING_IN_CELLS, (2, 3))
+
+
 def volumes_beside_post_agree(bench):
     """A dam break with volumes in cells that meets a post, on 1, 2 and 3 ranks."""
     ranks_agree(bench, POST_IN_CELLS, (2, 3))
@@ -568,7 +590,8 @@ TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid
                        elastic_ranks_agree_2d, sheet_ranks_agree, sprung_ranks_agree_2d, viscous_ranks_agree_2d,
                        mud_ranks_agree_2d, gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d,
                        viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d,
-                       volumes_beside_post_agree, volumes_ranks_agree_3d, poured_volumes_agree, jet_ranks_agree,
+                       volumes_beside_post_agree, volumes_ranks_agree_3d, volumes_under_gas_agree,
+                       volumes_round_bubble_agree, volumes_that_part_agree, poured_volumes_agree, jet_ranks_agree,
                        same_ranks_same_bits, elastic_same_ranks_same_bits],
           "long_equality": [shared_elements_ranks_agree, shared_unknowns_ranks_agree, twins_ranks_agree,
                             elastic_ranks_agree_3d, viscous_ranks_agree_3d, tension_ranks_agree_3d],

@@ -261,9 +261,8 @@ def is_thick(c, solid):
 
 def choose_volume(c, scene):
     """How the liquid is kept: by cells only where nothing in the scene stands against it."""
-    liquid, sides = scene["liquid"], str(scene["domain"].get("boundary", {}))
-    against = (not all(is_thick(c, s) for s in scene["solid"]) or c.has_gas or liquid.get("source") or liquid.get("separates") or "inflow" in sides
-               or "outflow" in sides)
+    liquid = scene["liquid"]
+    against = not all(is_thick(c, s) for s in scene["solid"])
     words = [w for w in c.choices("liquid", "volume") if not (w == "cells" and against)]
     if against and c.rng.random() < 0.9:
         return

@@ -233,13 +233,14 @@ TEST_CASE("gas has a density, and flows where liquid does not separate") {
   CHECK(write_scene(parse(small_scene)).find("[gas]") == std::string::npos);
 }
 
-TEST_CASE("volumes are carried in cells only where nothing stands against it") {
+TEST_CASE("volumes are carried in cells beside whatever a scene has") {
   const std::string cells = small_scene + "[liquid]\nvolume = \"cells\"\n",
                     ball = "[[solid]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n";
-  check_all({{cells + "separates = true\n", "does not work with liquid.separates = true yet; use \"shift\""},
-             {cells + "[gas]\n", "[gas]"},
-             {small_scene + "[liquid]\nvolume = \"cell\"\n", "did you mean \"cells\""}});
+  check_all({{small_scene + "[liquid]\nvolume = \"cell\"\n", "did you mean \"cells\""}});
   CHECK(parse(cells).liquid.volume == VolumeKeeping::in_cells);
+  CHECK_NOTHROW(parse(cells + "separates = true\n"));
+  CHECK_NOTHROW(parse(cells + "[gas]\n"));
+  CHECK_NOTHROW(parse(cells + "[gas]\nbubbles = \"volume_conserving\"\n"));
   CHECK_NOTHROW(parse(cells + ball + "kind = \"static\"\n"));
   CHECK_NOTHROW(parse(cells + ball + "kind = \"rigid\"\ndensity = 500\n"));
   CHECK_NOTHROW(parse(cells + "[domain.boundary]\nx_lower = { type = \"outflow\" }\n"));
