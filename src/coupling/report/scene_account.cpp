@@ -116,7 +116,7 @@ void account_sources(const Domain<Dim>& domain, const Fluids& fluids, const Stat
                      const NodeField<Dim>& psi, SceneAccount& account) {
   constexpr double full = 0.99;  // share of the shape; corners of the surface are cut off within their cells
   const LiquidSpec& liquid = fluids.liquid;
-  const bool needs_centre = liquid.volume != VolumeKeeping::in_cells && !fluids.has_prescribed_flow();
+  const bool needs_centre = state.liquid.empty() && !fluids.has_prescribed_flow();
   for (std::size_t k = 0; k < std::min(most_shapes, liquid.sources.size()); ++k) {
     const ShapeSpec& spec = liquid.sources[k].shape;
     const CellField<Dim> phi = level_set_of(domain, spec);
@@ -135,9 +135,10 @@ void account_sources(const Domain<Dim>& domain, const Fluids& fluids, const Stat
 }
 
 template <int Dim>
-void account_drains(const Domain<Dim>& domain, const Fluids& fluids, const NodeField<Dim>& psi, SceneAccount& account) {
+void account_drains(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
+                    SceneAccount& account) {
   const LiquidSpec& liquid = fluids.liquid;
-  const bool needs_centre = liquid.volume != VolumeKeeping::in_cells && !fluids.has_prescribed_flow();
+  const bool needs_centre = state.liquid.empty() && !fluids.has_prescribed_flow();
   for (std::size_t k = 0; k < std::min(most_shapes, liquid.drains.size()); ++k) {
     const ShapeSpec& spec = liquid.drains[k].shape;
     const CellField<Dim> phi = level_set_of(domain, spec);
@@ -156,7 +157,7 @@ void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State
   if (whole - liquid.volume > all * whole) liquid.in_solids = whole - liquid.volume;
   account_regions(domain, fluids.liquid, psi, account);
   account_sources(domain, fluids, state, psi, account);
-  account_drains(domain, fluids, psi, account);
+  account_drains(domain, fluids, state, psi, account);
 }
 
 template <int Dim>
