@@ -20,7 +20,7 @@ struct SideSpec {
   SideType type = SideType::free_slip;
   VectorFormula velocity{"0", "0", "0"};  // inflow, moving_wall
   Formula pressure = "0";                 // outflow, Pa
-  SideWavesSpec waves;                    // waves
+  SideWavesSpec waves{};                  // waves
 };
 
 struct DomainSpec {

@@ -13,15 +13,25 @@ Key<S> length_key(const char* key, const char* unit, const char* doc, double Wav
   return value_key<S>({.key = key, .unit = unit, .range = range, .presence = Presence::required, .doc = doc}, member);
 }
 
+// Not written if there is none.
+template <class S>
+Key<S> spectrum_key() {
+  Key<S> key = value_key<S>({.key = "spectrum",
+                             .type = T::choice,
+                             .choices = {"jonswap", "pierson_moskowitz"},
+                             .unset = "regular waves",
+                             .doc = "irregular waves: random phases, the same for the same seed"},
+                            &WavesSpec::spectrum);
+  key.write = [write = key.write](const S& s, int dimension, const std::string& path, SceneLines& lines) {
+    if (!s.spectrum.empty()) write(s, dimension, path, lines);
+  };
+  return key;
+}
+
 template <class S>
 std::vector<Key<S>> spectrum_keys() {
   return {
-      value_key<S>({.key = "spectrum",
-                    .type = T::choice,
-                    .choices = {"jonswap", "pierson_moskowitz"},
-                    .unset = "regular waves",
-                    .doc = "irregular waves: random phases, the same for the same seed"},
-                   &WavesSpec::spectrum),
+      spectrum_key<S>(),
       value_key<S>({.key = "peakedness",
                     .range = between(1, 20),
                     .only_for = {"spectrum", {"jonswap"}},

@@ -226,8 +226,8 @@ lower = [0.0, 0.0]
 upper = [1.0, 0.8]
 cell_size = 0.04
 [time]
-end = 0.2
-fixed_step = 0.01
+end = 0.1
+fixed_step = 0.005
 frame_rate = 10.0
 [[liquid.region]]
 shape = "box"
@@ -243,7 +243,7 @@ shape = "box"
 lower = [0.7, 0.02]
 upper = [0.93, 0.21]
 rate = 0.1
-from = 0.055
+from = 0.0275
 [[liquid.source]]
 shape = "sphere"
 center = [0.2, 0.65]
@@ -273,8 +273,8 @@ cell_size = 0.05
 x_lower = {{ type = "waves", waves = {{ depth = 0.5, height = 0.08, period = 0.9, ramp = 0.0, theory = "nonlinear" }} }}
 x_upper = {{ type = "waves", waves = {{ depth = 0.5, height = 0.0, period = 0.9 }} }}
 [time]
-end = 0.2
-fixed_step = 0.01
+end = 0.1
+fixed_step = 0.005
 frame_rate = 10.0
 [[liquid.region]]
 shape = "box"
@@ -538,7 +538,7 @@ def poured_volumes_agree(bench):
 
 def integral_of_rates(t, scale):
     """Volume that FED's spring brings and its pump takes until t."""
-    return scale * 0.3 * (t + 2.5 * t * t) - 0.1 * max(0.0, t - 0.055)
+    return scale * 0.3 * (t + 2.5 * t * t) - 0.1 * max(0.0, t - 0.0275)
 
 
 def follows_rates(bench, run, scale):

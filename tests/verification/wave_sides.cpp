@@ -75,6 +75,7 @@ Waves measure(Scene s, double period, double x, double end, int periods) {
 
 }  // namespace
 
+// Measured: 0.976 of the height, 1.0 % come back.
 TEST_CASE("waves enter through a side with the height asked for, and leave through another") {
   const double period = period_of(2), length = M_PI;
   const Waves waves = measure(channel(12, 2 * length, 0.04, period, true), period, length, 10 * period, 2);

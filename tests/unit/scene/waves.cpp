@@ -4,6 +4,7 @@
 #include "base/expression.h"
 #include "base/scene.h"
 #include "scene/waves.h"
+#include "scene/writer.h"
 #include "unit/scene/common.h"
 
 namespace waves_tests {
@@ -127,6 +128,8 @@ TEST_CASE("waves at sides are read, and say what does not fit") {
   CHECK(spec.type == SideType::waves);
   CHECK(spec.waves.absorbs);
   CHECK(spec.waves.towards == Vec3(-1, 0, 0.5));
+  const std::string written = write_scene(good);
+  CHECK(write_scene(parse(written)) == written);
   CHECK_THROWS_WITH(parse(side("y_lower", ", height = 0.05")), Contains("waves pass upright sides alone"));
   CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.0, absorbs = false")), Contains("is a wall"));
   CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.45")), Contains("break in 0.5 m of depth"));
