@@ -37,12 +37,8 @@ def flow(c, size):
 # --- top level, sides, time -------------------------------------------------------------------------------------------
 
 def gravity(c, _):
-    value = any_gravity(c)
-    c.is_down = value[1] == -c.acceleration != 0
-    return value
-
-
-def any_gravity(c):
+    if c.has_waves:
+        return [0.0, -c.acceleration] + [0.0] * (c.dim - 2)
     if c.acceleration == 0:
         return [0.0] * c.dim
     if c.rng.random() < 0.7:
@@ -55,7 +51,7 @@ def any_gravity(c):
 def boundary(c, _):
     """Periodic sides in pairs; an inflow has an outflow on the opposite side; waves pass upright sides."""
     sides = {}
-    waves = ["waves"] if c.is_down and not c.has_gas and not c.prescribes else []
+    waves = ["waves"] if c.acceleration and not c.has_gas and not c.prescribes else []
     for axis in AXES[:c.dim]:
         low, high = f"{axis}_lower", f"{axis}_upper"
         what = c.rng.choice(["", "", "walls", "periodic", "through", "open", *(waves if axis != "y" else [])])
@@ -63,6 +59,7 @@ def boundary(c, _):
             sides[low] = sides[high] = "periodic"
             c.periodic.append(axis)
         elif what == "waves":
+            c.has_waves = True
             sides[low], sides[high] = side(c, low, "waves"), side(c, high, c.rng.choice(("waves", *CLOSED)))
         elif what == "walls":
             sides[low], sides[high] = side(c, low, c.rng.choice((*CLOSED, "moving_wall"))), side(c, high, "no_slip")
