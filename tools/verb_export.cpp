@@ -20,9 +20,9 @@ void add_export(CLI::App& program, VerbContext& context) {
   verb->add_option("--format", options->format, help)->required()->check(CLI::IsMember(names));
   verb->add_option("--frames", options->frames, "all, 0-24, or 0,10,20")->capture_default_str();
   verb->add_option("--out", (*words)[1], "Folder for the files; default: export in the directory");
-  verb->add_option("--up", options->up, "Axis that points up in the files: scene (as in the scene), y, z")
-      ->check(CLI::IsMember({"scene", "y", "z"}))
-      ->capture_default_str();
+  verb->add_option("--up", options->up,
+                   "Axis that points up in the files: scene (as in the scene), y, z; default: the scene's output.up")
+      ->check(CLI::IsMember({"scene", "y", "z"}));
   verb->callback([options, words, &context] {
     context.action = [options, words, &context] {
       options->run = (*words)[0];

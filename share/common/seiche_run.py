@@ -267,14 +267,17 @@ def is_exported(run, folder, frames, form="ply"):
 
 
 def export_meshes(run, frames, given=None, form="ply", say=print):
-    """Folder with the meshes of these frames; calls `seiche export` if some are missing or old."""
-    folder = run.folder / "export"
+    """Folder with the meshes of these frames in the scene's axes; calls `seiche export` if some are missing or old."""
+    turned = run.scene.get("output", {}).get("up", "scene") != "scene"   # what lies in export/ may be turned
+    folder = run.folder / ("export_scene_axes" if turned else "export")
     if run.is_flat:
         raise RunFault(f"{run.folder}: is a run in 2D; meshes of the liquid exist for 3D runs")
     if is_exported(run, folder, frames, form):
         return folder
     command = [find_program(given), "export", str(run.folder), "--format", form, "--frames",
                "all" if frames == run.frames else ",".join(map(str, frames))]
+    if turned:
+        command += ["--up", "scene", "--out", str(folder)]
     say("running: " + " ".join(command))
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:

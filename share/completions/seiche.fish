@@ -76,7 +76,7 @@ complete -c seiche -n '__fish_seen_subcommand_from export' -l help -d 'Print thi
 complete -c seiche -n '__fish_seen_subcommand_from export' -l format -r -d 'Form of the files: ply: a mesh of the liquid and of each solid a frame, with velocities; obj: the same without velocities; usd: one .usda file with the liquid, the solids and their motion; xdmf: one .xdmf file with an .h5 for ParaView, 2D and 3D: fields at cells and nodes, solids'
 complete -c seiche -n '__fish_seen_subcommand_from export' -l frames -r -d 'all, 0-24, or 0,10,20'
 complete -c seiche -n '__fish_seen_subcommand_from export' -l out -r -d 'Folder for the files; default: export in the directory'
-complete -c seiche -n '__fish_seen_subcommand_from export' -l up -r -d 'Axis that points up in the files: scene (as in the scene), y, z'
+complete -c seiche -n '__fish_seen_subcommand_from export' -l up -r -d 'Axis that points up in the files: scene (as in the scene), y, z; default: the scenes output.up'
 complete -c seiche -n __fish_use_subcommand -f -a init -d 'Start a scene from an example'
 complete -c seiche -n '__fish_seen_subcommand_from init' -l help -d 'Print this help message and exit'
 complete -c seiche -n '__fish_seen_subcommand_from init' -l example -r -d 'Example that it starts from'

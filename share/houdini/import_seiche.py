@@ -18,7 +18,8 @@ import hou  # noqa: E402
 import seiche_run as runs  # noqa: E402
 
 FRAME = "$F4"  # Houdini's frame in four digits, as in the names of files
-VELOCITY = 'v@v = volumesamplev(1, "vel", v@P);'  # m/s; the second input has the fields
+# m/s; the second input has the fields, one of these names; the other gives 0
+VELOCITY = 'v@v = volumesamplev(1, "vel", v@P) + volumesamplev(1, "velocity", v@P);'
 
 
 def options_of(arguments):

@@ -8,13 +8,13 @@
 
 namespace seiche {
 
-// A wave maker's motion: that of a piston, or of a flap about a hinge at the bottom.
+// Waves, and the wave maker's motion: that of a piston, or of a flap about a hinge at the bottom.
 struct WavesSpec {
   std::string paddle = "piston";  // "flap"
   double depth = 0;               // m, of the liquid at rest
   double height = 0;              // m, from trough to crest; significant height of a spectrum
   double period = 0;              // s; of the peak of a spectrum
-  std::string theory = "airy";    // "stokes": second order, for regular waves of a piston
+  std::string theory = "airy";    // "stokes": second order, for regular waves of a piston; "nonlinear": at sides
   std::string spectrum;           // "jonswap", "pierson_moskowitz"; empty: regular waves
   double peakedness = 3.3;        // gamma of jonswap
   int components = 24, seed = 1;  // of a spectrum

@@ -3,6 +3,6 @@
 
 namespace seiche {
 
-enum class SideType { free_slip, no_slip, periodic, inflow, outflow, moving_wall };
+enum class SideType { free_slip, no_slip, periodic, inflow, outflow, moving_wall, waves };
 
 }  // namespace seiche

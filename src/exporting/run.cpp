@@ -79,6 +79,7 @@ Job prepare(const ExportOptions& options) {
                             options.run.string(), options.format));
   for (const SolidSpec& solid : job.scene.solids) job.names.push_back(solid.name);
   if (options.format == "usd") job.poses = std::make_unique<PoseTable>(job.paths.solids(), job.names);
+  if (job.options.up.empty()) job.options.up = job.scene.output.up;
   choose_axes(job);
   return job;
 }
@@ -157,6 +158,7 @@ void write_xdmf(const Job& job, const Say& say) {
     say(fmt::format("frame {}", number));
   }
   writer.finish();
+  if (job.options.up != "scene") say("note: XDMF files keep the scene's axes, whatever up says");
   say(fmt::format("{} in {}.xdmf and .h5", frames_text(job), (job.out / stem_of(job)).string()));
 }
 

@@ -158,7 +158,8 @@ void FrameWriter::write(const FrameLabel& label, const Simulation& simulation, P
   agree_on_root(ranks_, fmt::format("writing frame {}", label.number), [&] {
     const std::vector<VolumeFrame> volumes = elastic_volumes(label, simulation);
     if (wants(scene_.output.formats, "vdb")) {
-      write_file(paths_.frames() / frame_file("frame", label.number, "vdb"), vdb::encode(frame));
+      write_file(paths_.frames() / frame_file("frame", label.number, "vdb"),
+                 vdb::encode(frame, scene_.output.velocity_name));
     }
     if (wants(scene_.output.formats, "vtk")) write_fluid(frame);
     if (!scene_.solids.empty()) write_solids(label, simulation);

@@ -237,6 +237,8 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
     check_prescribed_flow(context, root, scene);
     if (context.clean("time")) check_rates(context, root, scene);
   }
+  if (context.clean("gravity") && context.clean("gas") && context.clean("liquid"))
+    check_side_waves(context, root, scene);
   if (context.clean("probe")) expand_probes(context, root, scene);
 }
 

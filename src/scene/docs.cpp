@@ -86,7 +86,7 @@ std::string scene_reference() {
   }
   std::string text = introduction;
   for (const std::string& table : order) {
-    const std::string alike = table == "domain.boundary.x_lower" ? " and the other sides" : "";
+    const std::string alike = table.rfind("domain.boundary.x_lower", 0) == 0 ? " and the other sides" : "";
     text += fmt::format("\n## {}{}\n\n| key | value | default | range, unit | meaning |\n|---|---|---|---|---|\n{}",
                         title(table), alike, rows[table]);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/scene.h"
+#include "scene/waves.h"
 
 namespace seiche {
 namespace {
@@ -21,7 +22,8 @@ Section<SideSpec> side_section() {
            {"periodic", SideType::periodic},
            {"inflow", SideType::inflow},
            {"outflow", SideType::outflow},
-           {"moving_wall", SideType::moving_wall}}),
+           {"moving_wall", SideType::moving_wall},
+           {"waves", SideType::waves}}),
       value_key<S>({.key = "velocity",
                     .type = T::formula_vector,
                     .unit = "m/s",
@@ -38,6 +40,11 @@ Section<SideSpec> side_section() {
                     .unset = "0.0",
                     .doc = "pressure outside; what comes in has been at rest there"},
                    &S::pressure),
+      inline_key<S>({.key = "waves",
+                     .only_for = {"type", {"waves"}},
+                     .presence = Presence::required,
+                     .doc = "waves that enter here, and whether waves may leave; see waves.md"},
+                    &S::waves, side_waves_section()),
   };
   return s;
 }
@@ -191,6 +198,18 @@ Section<OutputSpec> output_section() {
                     .doc = "level set of the frames: closed at walls and solids, so that it encloses the liquid "
                            "alone, with free_surface beside it as the solver has it; free: the latter alone"},
                    &S::surface),
+      value_key<S>({.key = "velocity_name",
+                    .type = T::choice,
+                    .choices = {"vel", "velocity"},
+                    .doc = "name of the velocity's grid in .vdb files: \"velocity\" is that which Blender looks for"},
+                   &S::velocity_name),
+      value_key<S>(
+          {.key = "up",
+           .type = T::choice,
+           .choices = {"scene", "y", "z"},
+           .doc = "axis that points up in files of `seiche export`, unless --up tells another; frames keep the "
+                  "scene's axes"},
+          &S::up),
       value_key<S>({.key = "checkpoint_every",
                     .type = T::integer,
                     .unit = "frames",

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <random>
 
+#include "base/error.h"
 #include "base/gravity.h"
 #include "base/scene.h"
 #include "scene/checks.h"
@@ -14,38 +14,11 @@ namespace {
 
 constexpr double two_pi = 2 * M_PI;
 
-// Variance density of a spectrum at r = f / f_p, up to a factor. Hasselmann et al., Measurements of wind-wave growth
-// (JONSWAP, 1973); peakedness 1 is the spectrum of Pierson and Moskowitz (1964).
-double spectral_shape(double r, double peakedness) {
-  const double width = r <= 1 ? 0.07 : 0.09;
-  return std::pow(r, -5) * std::exp(-1.25 * std::pow(r, -4)) *
-         std::pow(peakedness, std::exp(-std::pow((r - 1) / width, 2) / 2));
-}
-
-// Equally likely in [0, 1), the same on all machines.
-double draw(std::mt19937& random) {
-  return double(random()) / 4294967296.0;
-}
-
-// Bands of equal width from 0.5 to 2.5 f_p, a component at a random place of each, so that the sum does not repeat.
-// Amplitudes a with sum a^2 / 2 = (H_s / 4)^2.
+// Amplitudes of the paddle for those of the waves.
 std::vector<PaddleTerm> irregular_terms(const WavesSpec& waves, double gravity) {
-  constexpr double lowest = 0.5, highest = 2.5;  // f / f_p; they hold 98 % of the variance
-  const double peakedness = waves.spectrum == "jonswap" ? waves.peakedness : 1;
-  std::mt19937 random(std::uint32_t(waves.seed));
-  std::vector<PaddleTerm> terms;
-  double variance = 0;
-  for (int n = 0; n < waves.components; ++n) {
-    const double r = lowest + (highest - lowest) * (n + draw(random)) / waves.components;
-    const double density = spectral_shape(r, peakedness);
-    terms.push_back({std::sqrt(2 * density), two_pi * r / waves.period, two_pi * draw(random)});
-    variance += density;
-  }
-  for (PaddleTerm& term : terms) {
-    const double kh = waves.depth * wave_number(term.frequency, gravity, waves.depth);
-    const double wave = term.amplitude * waves.height / 4 / std::sqrt(variance);
-    term.amplitude = wave / height_over_stroke(waves.paddle, kh);  // a of the wave: H/2; of the paddle: S/2
-  }
+  std::vector<PaddleTerm> terms = irregular_waves(waves);
+  for (PaddleTerm& term : terms)
+    term.amplitude /= height_over_stroke(waves.paddle, waves.depth * wave_number(term.frequency, gravity, waves.depth));
   return terms;
 }
 
@@ -69,6 +42,24 @@ std::string sum_of(const std::vector<PaddleTerm>& terms, double factor) {
 std::string with_ramp(const std::string& sum, double ramp) {
   if (ramp == 0) return sum;
   return fmt::format("(t<{0:.9g}?0.5-0.5*cos({1:.9g}*t):1)*({2})", ramp, M_PI / ramp, sum);
+}
+
+// Waves of this height break; empty: they do not.
+std::string fault_of_height(const WavesSpec& waves, double gravity) {
+  if (waves.height > 0.78 * waves.depth)  // McCowan's limit of solitary waves
+    return fmt::format("waves {:g} m high break in {:g} m of depth; their height is at most 0.78 of it", waves.height,
+                       waves.depth);
+  const double k = wave_number(two_pi / waves.period, gravity, waves.depth), length = two_pi / k;
+  const double steepest = steepest_wave(k * waves.depth);
+  if (waves.spectrum.empty() && waves.height > steepest * length)
+    return fmt::format("waves {:g} m high and {:.4g} m long break; their height is at most {:.4g} m", waves.height,
+                       length, steepest * length);
+  return {};
+}
+
+bool is_horizontal(const Vec3& direction, const Vec3& up) {
+  constexpr double level = 1e-6;  // of |direction|, off the horizontal
+  return direction.norm() > 0 && std::abs(direction.normalized().dot(up)) <= level;
 }
 
 class Expansion {
@@ -102,24 +93,14 @@ class Expansion {
 
  private:
   std::string fault_of(const WavesSpec& waves) const {
-    constexpr double level = 1e-6;  // of |direction|, off the horizontal
     const bool is_flap = waves.paddle == "flap";
     if (gravity_ == 0) return "waves need gravity";
-    if (!(waves.direction.norm() > 0) || std::abs(waves.direction.normalized().dot(up_)) > level)
-      return "direction must be horizontal";
+    if (!is_horizontal(waves.direction, up_)) return "direction must be horizontal";
     if (is_flap && !waves.hinge) return "a flap needs its hinge, a point of its axis at the bottom";
     if (!is_flap && waves.hinge) return "a piston has no hinge";
     if (waves.theory == "stokes" && (is_flap || !waves.spectrum.empty()))
       return "theory = \"stokes\" is for regular waves of a piston";
-    if (waves.height > 0.78 * waves.depth)  // McCowan's limit of solitary waves
-      return fmt::format("waves {:g} m high break in {:g} m of depth; their height is at most 0.78 of it", waves.height,
-                         waves.depth);
-    const double k = wave_number(two_pi / waves.period, gravity_, waves.depth), length = two_pi / k;
-    const double steepest = 0.142 * std::tanh(k * waves.depth);  // H over length, Miche (1944)
-    if (waves.spectrum.empty() && waves.height > steepest * length)
-      return fmt::format("waves {:g} m high and {:.4g} m long break; their height is at most {:.4g} m", waves.height,
-                         length, steepest * length);
-    return {};
+    return fault_of_height(waves, gravity_);
   }
 
   SceneContext& context_;
@@ -129,20 +110,36 @@ class Expansion {
   int dimension_ = 3;
 };
 
-}  // namespace
-
-// Newton's method from the limit of deep or shallow liquid, whichever has the larger k.
-double wave_number(double w, double gravity, double depth) {
-  const double deep = w * w / gravity;
-  double k = std::max(deep, w / std::sqrt(gravity * depth));
-  for (int n = 0; n < 50; ++n) {
-    const double t = std::tanh(k * depth), f = k * t - deep, slope = t + k * depth * (1 - t * t);
-    const double change = f / slope;
-    k -= change;
-    if (std::abs(change) < 1e-15 * k) break;
-  }
-  return k;
+// Features that have no place beside waves at sides, or "".
+std::string excluded_by_waves(const Scene& scene) {
+  if (scene.gas.present)
+    return "waves at sides are for liquid alone: gas could not leave as the level rises; leave [gas] out";
+  if (scene.liquid.prescribed_velocity) return "liquid.prescribed_velocity leaves no flow to solve for; remove it";
+  return {};
 }
+
+// Fault of waves at the side along an axis, or "".
+std::string fault_of_side(const Scene& scene, const SideWavesSpec& waves, int axis) {
+  const Vec3 g = Gravity(scene.gravity).at(0);
+  if (!(g.norm() > 0)) return "waves need gravity";
+  Eigen::Index vertical = 1;
+  if (g.cwiseAbs().maxCoeff(&vertical) < g.norm() * (1 - 1e-12)) return "waves at sides need gravity along an axis";
+  const Vec3 up = -g / g.norm();
+  if (vertical == axis) return "waves pass upright sides alone, those along which gravity acts";
+  if (waves.towards && !is_horizontal(*waves.towards, up)) return "direction must be horizontal";
+  const double sign = up[vertical], low = scene.domain.lower[vertical], high = scene.domain.upper[vertical];
+  const double level = waves.level.value_or(sign > 0 ? low + waves.depth : high - waves.depth);
+  if (level <= low || level >= high)
+    return fmt::format("the level of rest, {:g} m, lies outside of the domain, {:g} to {:g} m; change depth or level",
+                       level, low, high);
+  if (waves.height == 0 && !waves.absorbs) return "height = 0 with absorbs = false is a wall; give a height";
+  if (waves.theory != "airy" && !waves.spectrum.empty())
+    return "theory = \"" + waves.theory + "\" is for regular waves; a spectrum is of linear ones";
+  if (std::string fault = fault_of_height(waves, g.norm()); !fault.empty()) return fault;
+  return excluded_by_waves(scene);
+}
+
+}  // namespace
 
 double height_over_stroke(const std::string& paddle, double kh) {
   // sinh and cosh over exp(kh), so that deep liquid does not overflow
@@ -171,6 +168,22 @@ void expand_waves(SceneContext& context, const TomlNode& root, Scene& scene) {
     for (std::size_t n = 0; n < solid.elastic.pinned.size(); ++n)
       apply(fmt::format("solid.{}.pinned.{}", k, n), solid.elastic.pinned[n].motion);
   }
+}
+
+void check_side_waves(SceneContext& context, const TomlNode& root, const Scene& scene) {
+  for (int axis = 0; axis < scene.dimension; ++axis)
+    for (const int side : {0, 1}) {
+      const SideSpec& spec = scene.domain.sides[std::size_t(axis)][std::size_t(side)];
+      if (spec.type != SideType::waves) continue;
+      const std::string path = fmt::format("domain.boundary.{}_{}.waves", "xyz"[axis], side == 0 ? "lower" : "upper");
+      std::string fault = fault_of_side(scene, spec.waves, axis);
+      try {
+        if (fault.empty()) (void)wave_train(spec.waves, Gravity(scene.gravity).at(0).norm());
+      } catch (const Error& error) {
+        fault = error.what();
+      }
+      if (!fault.empty()) context.report(path, line_of(root, path), path + ": " + fault);
+    }
 }
 
 }  // namespace seiche

@@ -1171,6 +1171,14 @@ def exported_runs(bench):
     names = {file.name for file in bench.path("solid/export").iterdir()}
     expect({"liquid.0001.ply", "liquid.0001.obj", "solid.usda"} <= names, f"{names}")
     bench.run("export", "solid", "--format", "ply", "--frames", "7").needs(2, "7")
+    turned = ("--set", 'output.up="z"', "--set", 'output.velocity_name="velocity"')
+    bench.simulate("--frames", "1", *turned, text=BALL, out="turned").needs(0)
+    expect("velocity" in frame_voxels(bench.path("turned/frames/frame.0001.vdb")), "no grid is named velocity")
+    bench.run("export", "turned", "--format", "usd").needs(0)
+    expect('upAxis = "Z"' in bench.path("turned/export/turned.usda").read_text(), "z is not up")
+    bench.run("export", "turned", "--format", "usd", "--up", "scene").needs(0)
+    expect('upAxis = "Y"' in bench.path("turned/export/turned.usda").read_text(), "--up does not overrule the scene")
+    bench.run("export", "turned", "--format", "xdmf").needs(0, "keep the scene's axes")
     (bench.path("solid") / "solids.csv").write_text("time,name,x\n")
     bench.run("export", "solid", "--format", "usd").needs(2, "solids.csv", "there is no column")
 

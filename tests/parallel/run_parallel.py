@@ -224,6 +224,88 @@ velocity = [-0.5, -1.0]
 from = 0.03
 [output]"""))
 
+# A basin with a spring and a pump below the surface, with rates that change, and a source above it, which brings
+# nothing.
+FED = f"""\
+dimension = 2
+[domain]
+lower = [0.0, 0.0]
+upper = [1.0, 0.8]
+cell_size = 0.04
+[time]
+end = 0.1
+fixed_step = 0.005
+frame_rate = 10.0
+[[liquid.region]]
+shape = "box"
+lower = [0.0, 0.0]
+upper = [1.0, 0.42]
+[[liquid.source]]
+shape = "sphere"
+center = [0.47, 0.2]
+radius = 0.13
+rate = "0.3*(1+5*t)"
+[[liquid.drain]]
+shape = "box"
+lower = [0.7, 0.02]
+upper = [0.93, 0.21]
+rate = 0.1
+from = 0.0275
+[[liquid.source]]
+shape = "sphere"
+center = [0.2, 0.65]
+radius = 0.08
+rate = 0.1
+[output]
+formats = ["vdb"]
+checkpoint_every = 1
+frames = ["surface", "velocity", "pressure"]
+[solver]
+tolerance = {TOLERANCE}
+"""
+FED_3D = (FED.replace("dimension = 2", "dimension = 3").replace("[0.0, 0.0]", "[0.0, 0.0, 0.0]")
+          .replace("[1.0, 0.8]", "[1.0, 0.8, 0.6]").replace("[1.0, 0.42]", "[1.0, 0.42, 0.6]")
+          .replace("[0.47, 0.2]", "[0.47, 0.2, 0.3]").replace("[0.2, 0.65]", "[0.2, 0.65, 0.3]")
+          .replace("[0.7, 0.02]", "[0.7, 0.02, 0.1]").replace("[0.93, 0.21]", "[0.93, 0.21, 0.4]")
+          .replace("cell_size = 0.04", "cell_size = 0.05").replace("0.3*(1+5*t)", "0.1*(1+5*t)"))
+
+# Waves enter on the left, meet a post, and leave on the right.
+SEA = f"""\
+dimension = 2
+[domain]
+lower = [0.0, 0.0]
+upper = [2.0, 0.8]
+cell_size = 0.05
+[domain.boundary]
+x_lower = {{ type = "waves", waves = {{ depth = 0.5, height = 0.08, period = 0.9, ramp = 0.0, theory = "nonlinear" }} }}
+x_upper = {{ type = "waves", waves = {{ depth = 0.5, height = 0.0, period = 0.9 }} }}
+[time]
+end = 0.1
+fixed_step = 0.005
+frame_rate = 10.0
+[[liquid.region]]
+shape = "box"
+lower = [0.0, 0.0]
+upper = [2.0, 0.5]
+[[solid]]
+name = "post"
+shape = "sphere"
+center = [1.02, 0.3]
+radius = 0.12
+[output]
+formats = ["vdb"]
+checkpoint_every = 1
+frames = ["surface", "velocity", "pressure"]
+[solver]
+tolerance = {TOLERANCE}
+"""
+# The same from the side in 3D, aslant.
+SEA_3D = (SEA.replace("dimension = 2", "dimension = 3").replace("[0.0, 0.0]", "[0.0, 0.0, 0.0]")
+          .replace("[2.0, 0.8]", "[2.0, 0.8, 0.6]").replace("[2.0, 0.5]", "[2.0, 0.5, 0.6]")
+          .replace("[1.02, 0.3]", "[1.02, 0.3, 0.25]").replace('"nonlinear"', '"stokes", direction = [1.0, 0.0, 0.4]')
+          .replace('x_upper = {', 'z_upper = { type = "waves", waves = { depth = 0.5, height = 0.0, period = 0.9 } }\n'
+                   'x_upper = {').replace("cell_size = 0.05", "cell_size = 0.1"))
+
 # A slanted jet with its upper rim between one and two halo widths beyond the cells of the lowest of three ranks.
 JET = f"""\
 dimension = 2
@@ -476,6 +558,47 @@ def poured_volumes_agree(bench):
     ranks_agree(bench, POURED_IN_CELLS, (2, 3))
 
 
+def integral_of_rates(t, scale):
+    """Volume that FED's spring brings and its pump takes until t."""
+    return scale * 0.3 * (t + 2.5 * t * t) - 0.1 * max(0.0, t - 0.0275)
+
+
+def follows_rates(bench, run, scale):
+    """The expected volume of a run of FED is the integral of its rates, and its log tells of the dry source once."""
+    rows = stats(bench.path(run))
+    start = json.loads((bench.path(run) / "summary.json").read_text())["initial_volume"]
+    expected = json.loads((bench.path(run) / "summary.json").read_text())["expected_volume"]
+    brought = integral_of_rates(float(rows[-1]["time"]), scale)
+    expect(abs(expected - start - brought) < 1e-8, f"{run}: rates bring {expected - start}, not {brought}")
+    log = (bench.path(run) / "log.txt").read_text()
+    expect(log.count("liquid.source.1 brings nothing") == 1, f"{run}: the log has\n{log}")
+
+
+def fed_ranks_agree_2d(bench):
+    """A spring and a pump with rates on 1, 2 and 3 ranks, and resumed half-way."""
+    ranks_agree(bench, FED, (2, 3))
+    for run in ("one", "ranks2", "ranks3"):
+        follows_rates(bench, run, 1.0)
+    resumed_ranks_agree(bench, FED)
+
+
+def fed_ranks_agree_3d(bench):
+    """The same in 3D on 1 and 3 ranks."""
+    ranks_agree(bench, FED_3D, (3,))
+    follows_rates(bench, "ranks3", 1 / 3)
+
+
+def waves_ranks_agree_2d(bench):
+    """Waves through sides on 1, 2 and 3 ranks, and resumed half-way."""
+    ranks_agree(bench, SEA, (2, 3))
+    resumed_ranks_agree(bench, SEA)
+
+
+def waves_ranks_agree_3d(bench):
+    """The same aslant in 3D, on 1 and 3 ranks."""
+    ranks_agree(bench, SEA_3D, (3,))
+
+
 def jet_ranks_agree(bench):
     """A slanted jet on 1, 2 and 3 ranks; its rim lies beyond the halo of a rank that it enters."""
     ranks_agree(bench, JET, (2, 3))
@@ -592,6 +715,7 @@ TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid
                        viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d,
                        volumes_beside_post_agree, volumes_ranks_agree_3d, volumes_under_gas_agree,
                        volumes_round_bubble_agree, volumes_that_part_agree, poured_volumes_agree, jet_ranks_agree,
+                       fed_ranks_agree_2d, fed_ranks_agree_3d, waves_ranks_agree_2d, waves_ranks_agree_3d,
                        same_ranks_same_bits, elastic_same_ranks_same_bits],
           "long_equality": [shared_elements_ranks_agree, shared_unknowns_ranks_agree, twins_ranks_agree,
                             elastic_ranks_agree_3d, viscous_ranks_agree_3d, tension_ranks_agree_3d],

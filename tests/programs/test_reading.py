@@ -94,6 +94,21 @@ def test_export(run, seiche):
     expect(len(said) == 1 and (run.folder / "export/post.ply").exists(), "a missing mesh was not exported")
 
 
+def test_turned_exports(run, seiche):
+    """Scripts turn meshes by themselves: they take them in the scene's axes where the scene has exports turned."""
+    as_they_are = meshes.read_ply(runs.mesh_file(run.folder / "export", "liquid", run.frames[-1]))
+    scene = run.folder / "scene.toml"
+    text = scene.read_text()
+    scene.write_text(text.replace('up = "scene"', 'up = "z"'))
+    turning = runs.Run(run.folder)
+    expect(turning.scene["output"]["up"] == "z", "the scene does not turn")
+    folder = runs.export_meshes(turning, turning.frames, str(seiche), say=lambda _: None)
+    again = meshes.read_ply(runs.mesh_file(folder, "liquid", run.frames[-1]))
+    scene.write_text(text)
+    expect(folder.name == "export_scene_axes", f"meshes are in {folder}")
+    expect_near(bounds(again.points), bounds(as_they_are.points), 1e-6, "meshes for scripts")
+
+
 def stand_in(keys, places):
     """A module in place of Houdini's that keeps what is set at parameters: values in places, keys in keys."""
 
@@ -139,6 +154,7 @@ def test(seiche, work):
     test_frames(run)
     test_meshes(run)
     test_export(run, seiche)
+    test_turned_exports(run, seiche)
     test_houdini_script(run, seiche)
 
 

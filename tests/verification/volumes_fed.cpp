@@ -118,6 +118,31 @@ TEST_CASE("feeds: a closed full tank has no flow for a source alone", "[volumes]
   }
 }
 
+// One line a spell: while the rate is zero the source wants nothing. Drains of empty shapes are not told.
+TEST_CASE("feeds: sources with a rate above the surface are told of, once a spell", "[volumes]") {
+  for (const int dim : {2, 3})
+    for (const bool cells : {false, true}) {
+      Scene s = half_full(dim, cells);
+      s.time.fixed_step = 0.01;
+      LiquidSourceSpec dry = fed_box(dim, 0.25, 0.5, "t < 0.045 || t > 0.065 ? 0.1 : 0"),
+                       wet = fed_box(dim, 0.6, 0.8, "0.01");
+      dry.shape.lower[1] = 0.75, dry.shape.upper[1] = 0.9;
+      s.liquid.sources = {wet, dry};
+      s.liquid.drains = {dry};
+      const auto sim = make_simulation(s, Communicator());
+      std::vector<std::string> told;
+      for (int n = 0; n < 10; ++n) {
+        (void)sim->step(1);
+        for (std::string& line : sim->take_warnings())
+          if (line.find("brings nothing") != std::string::npos) told.push_back(std::move(line));
+      }
+      INFO(dim << "D, cells " << cells);
+      REQUIRE(told.size() == 2);
+      CHECK_THAT(told[0], Catch::Matchers::Contains("step 1: liquid.source.1 brings nothing from t = 0 s on"));
+      CHECK_THAT(told[1], Catch::Matchers::Contains("step 7: liquid.source.1"));
+    }
+}
+
 // A drain takes air in proportion: where its shape is half full, half of its rate is liquid.
 TEST_CASE("feeds: a half-full drain takes half of its rate", "[volumes]") {
   for (const int dim : {2, 3}) {

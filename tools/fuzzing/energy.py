@@ -21,7 +21,7 @@ def is_fed(scene):
     sides = scene["domain"].get("boundary", {})
     kinds = {s if isinstance(s, str) else s["type"] for s in sides.values()}
     liquid = scene.get("liquid", {})
-    if kinds & {"inflow", "outflow", "moving_wall"} or "source" in liquid or "prescribed_velocity" in liquid:
+    if kinds & {"inflow", "outflow", "moving_wall", "waves"} or "source" in liquid or "prescribed_velocity" in liquid:
         return True
     if "force" in scene or "sponge" in liquid:
         return True

@@ -37,7 +37,7 @@ def table_name(title):
         return ""
     name = title.split("`")[1]
     name = name[2:-2] + "[]" if name.startswith("[[") else name[1:-1]
-    return "side" if name == "domain.boundary.x_lower" else name
+    return name.replace("domain.boundary.x_lower", "side")
 
 
 def parse_row(table, line):

@@ -57,6 +57,7 @@ class Case:
         self.pressure = self.density_scale * self.speed ** 2
         self.prescribes = rng.random() < 0.04
         self.has_gas = not self.prescribes and rng.random() < 0.3
+        self.has_waves = False   # at sides: gravity lies along y then
         self.periodic, self.bodies, self.followed = [], [], {}
 
     def use(self, table, name, value=None):

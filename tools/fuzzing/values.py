@@ -37,6 +37,8 @@ def flow(c, size):
 # --- top level, sides, time -------------------------------------------------------------------------------------------
 
 def gravity(c, _):
+    if c.has_waves:
+        return [0.0, -c.acceleration] + [0.0] * (c.dim - 2)
     if c.acceleration == 0:
         return [0.0] * c.dim
     if c.rng.random() < 0.7:
@@ -47,14 +49,18 @@ def gravity(c, _):
 
 
 def boundary(c, _):
-    """Periodic sides in pairs; an inflow has an outflow on the opposite side."""
+    """Periodic sides in pairs; an inflow has an outflow on the opposite side; waves pass upright sides."""
     sides = {}
+    waves = ["waves"] if c.acceleration and not c.has_gas and not c.prescribes else []
     for axis in AXES[:c.dim]:
         low, high = f"{axis}_lower", f"{axis}_upper"
-        what = c.rng.choice(["", "", "walls", "periodic", "through", "open"])
+        what = c.rng.choice(["", "", "walls", "periodic", "through", "open", *(waves if axis != "y" else [])])
         if what == "periodic":
             sides[low] = sides[high] = "periodic"
             c.periodic.append(axis)
+        elif what == "waves":
+            c.has_waves = True
+            sides[low], sides[high] = side(c, low, "waves"), side(c, high, c.rng.choice(("waves", *CLOSED)))
         elif what == "walls":
             sides[low], sides[high] = side(c, low, c.rng.choice((*CLOSED, "moving_wall"))), side(c, high, "no_slip")
         elif what:
@@ -87,6 +93,19 @@ def side_velocity(c, here):
     middle = number(c.lower[AXES.index(across)] + c.length / 2)
     values[axis] = c.rng.choice([speed, f"{speed!r}*min(1,10*t/{c.end!r})", f"{across} < {middle!r} ? {speed!r} : 0"])
     return values
+
+
+def side_waves(c, _):
+    """Long waves, far from breaking; none enter in one of four."""
+    depth = number(c.extent[1] * c.rng.uniform(0.3, 0.8))
+    period = number(2 * math.pi * math.sqrt(depth / c.acceleration) * c.rng.uniform(1, 4))
+    table = {"depth": depth, "height": number(depth * c.rng.choice([0.0, 0.01, 0.05, 0.2])), "period": period}
+    kind = c.rng.choice(["airy", "stokes", "nonlinear", "jonswap", "pierson_moskowitz"])
+    table["theory" if kind in ("airy", "stokes", "nonlinear") else "spectrum"] = kind
+    table["ramp"] = number(c.end * c.rng.choice([0.0, 0.3, 1.0]))
+    if table["height"] > 0:
+        table["absorbs"] = c.rng.random() < 0.8
+    return table
 
 
 def side_pressure(c, _):
@@ -296,6 +315,7 @@ VALUES = {
     ("", "title"): lambda c, _: c.rng.choice(["", "fuzz", "Wässer \"7\" \\ ü", "a" * 300]),
     ("", "gravity"): gravity,
     ("domain", "boundary"): boundary,
+    ("side", "waves"): side_waves,
     ("side", "velocity"): side_velocity,
     ("side", "pressure"): side_pressure,
     ("time", "cfl"): lambda c, _: number(c.rng.choice([0.3, 0.9, 1.0, 2.0, 4.0, c.rng.uniform(0.2, 8)])),

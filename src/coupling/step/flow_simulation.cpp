@@ -14,7 +14,6 @@
 #include "coupling/state/attempt.h"
 #include "coupling/state/checkpoint_state.h"
 #include "coupling/state/features.h"
-#include "coupling/state/fluids.h"
 #include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
@@ -25,6 +24,7 @@
 #include "coupling/step/step.h"
 #include "coupling/step/step_size.h"
 #include "coupling/thin/liquid_beside.h"
+#include "coupling/transport/dry_sources.h"
 #include "coupling/transport/tracked_volume.h"
 #include "coupling/transport/viscous_transport.h"
 #include "fluid/boundary/domain.h"
@@ -275,6 +275,7 @@ class FlowSimulation : public Simulation {
     warn_of_separation();
     warn_of_rheology(a);
     warn_of_crossing();
+    dry_sources_.warn(*setup_, state_, geometry_.psi, phases_.warnings);
     for (const std::string& line : a.solve.failed_attempts)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
     refresh(a.stats, a.solids);
@@ -380,6 +381,7 @@ class FlowSimulation : public Simulation {
   double divergence_ = 0, separation_error_ = 0;
   int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0, joint_turns_ = 0;
   bool told_of_separation_ = false, told_of_rheology_ = false, told_of_crossing_ = false;
+  DrySources<Dim> dry_sources_;
   StepStats stats_;
   std::vector<SolidState> solids_;
   mutable ProbeFields<Dim> probe_fields_;

@@ -199,7 +199,7 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
       perturbation(operators),
       fluids(from),
       domain(from.domain, fluids.is_viscous() ? WallFlow::sticks : WallFlow::slips, int(std::ceil(from.time.cfl)),
-             ranks, std::move(blocks)),
+             ranks, std::move(blocks), fluids.gravity.at(0)),
       forces(make_forces<Dim>(from, notes)),
       solids(from, domain, forces, perturbation, notes),
       exterior(make_exterior(fluids, domain)),

@@ -7,6 +7,7 @@
 #include "coupling/step/checks.h"
 #include "coupling/step/leapfrog.h"
 #include "coupling/step/side_flow.h"
+#include "coupling/step/wave_absorption.h"
 #include "coupling/thin/liquid_beside.h"
 #include "coupling/thin/thin_solids.h"
 #include "coupling/transport/feeds.h"
@@ -273,6 +274,9 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
     moved.fed = set_flux_of_feeds(s.domain, PlacedSources<Dim>(s, moved.state, times.start + times.lead).feeds(),
                                   FedLiquid<Dim>(s.domain.layout, moved.state, moved.geometry.psi),
                                   times.start + times.lead, times.dt, moved.geometry.faces);
+  if (s.domain.sides.any_waves())
+    absorb_waves<Dim>(s.domain, {before.phi, times.start}, {moved.state.phi, times.start + times.lead},
+                      moved.state.time, moved.geometry);
   if (s.domain.sides.any_passes())
     find_entering(s.domain, before.exterior->joined_level(s.domain, s.fluids, before)->u, moved.geometry.faces);
   const auto timed = phases.timers.measure("surface");

@@ -86,6 +86,22 @@ CellValues brought_by_feeds(const Domain<Dim>& domain, const std::vector<Source<
 }
 
 template <int Dim>
+std::vector<char> dry_sources(const Domain<Dim>& domain, const std::vector<Source<Dim>>& feeds,
+                              const FedLiquid<Dim>& liquid, double t0, double t1) {
+  std::vector<char> dry(feeds.size());
+  std::vector<double> wet(feeds.size());
+  for (std::size_t n = 0; n < feeds.size(); ++n) {
+    if (feeds[n].sign < 0) continue;
+    const FeedCells<Dim> found = find_cells(domain, feeds[n], liquid, t0, t1);
+    dry[n] = found.volume != 0;
+    wet[n] = found.wet;
+  }
+  domain.ranks.global_sum(wet);
+  for (std::size_t n = 0; n < feeds.size(); ++n) dry[n] = dry[n] && wet[n] == 0;
+  return dry;
+}
+
+template <int Dim>
 double sum_of_cells(const Domain<Dim>& domain, const CellValues& values) {
   double sum = 0;
   for (const auto& [c, value] : values) sum += value;
@@ -115,15 +131,17 @@ double power_of_feeds(const Domain<Dim>& domain, double density, const CellValue
   return domain.ranks.global_sum(sum);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                    \
-  template double volume_of_feed<D>(const Source<D>&, double, double);                                           \
-  template struct FedLiquid<D>;                                                                                  \
-  template CellValues brought_by_feeds<D>(const Domain<D>&, const std::vector<Source<D>>&, const FedLiquid<D>&,  \
-                                          double, double);                                                       \
-  template double sum_of_cells<D>(const Domain<D>&, const CellValues&);                                          \
-  template CellValues set_flux_of_feeds<D>(const Domain<D>&, const std::vector<Source<D>>&, const FedLiquid<D>&, \
-                                           double, double, FaceGeometry<D>&);                                    \
-  template double power_of_feeds<D>(const Domain<D>&, double, const CellValues&, const CellField<D>&,            \
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template double volume_of_feed<D>(const Source<D>&, double, double);                                            \
+  template struct FedLiquid<D>;                                                                                   \
+  template CellValues brought_by_feeds<D>(const Domain<D>&, const std::vector<Source<D>>&, const FedLiquid<D>&,   \
+                                          double, double);                                                        \
+  template std::vector<char> dry_sources<D>(const Domain<D>&, const std::vector<Source<D>>&, const FedLiquid<D>&, \
+                                            double, double);                                                      \
+  template double sum_of_cells<D>(const Domain<D>&, const CellValues&);                                           \
+  template CellValues set_flux_of_feeds<D>(const Domain<D>&, const std::vector<Source<D>>&, const FedLiquid<D>&,  \
+                                           double, double, FaceGeometry<D>&);                                     \
+  template double power_of_feeds<D>(const Domain<D>&, double, const CellValues&, const CellField<D>&,             \
                                     const FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

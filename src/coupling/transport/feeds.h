@@ -33,6 +33,11 @@ template <int Dim>
 CellValues brought_by_feeds(const Domain<Dim>& domain, const std::vector<Source<Dim>>& feeds,
                             const FedLiquid<Dim>& liquid, double t0, double t1);
 
+// Flags of the sources that bring nothing from t0 to t1 for want of liquid in their shape. Collective.
+template <int Dim>
+std::vector<char> dry_sources(const Domain<Dim>& domain, const std::vector<Source<Dim>>& feeds,
+                              const FedLiquid<Dim>& liquid, double t0, double t1);
+
 // Sum of such values over all ranks. Collective.
 template <int Dim>
 double sum_of_cells(const Domain<Dim>& domain, const CellValues& values);

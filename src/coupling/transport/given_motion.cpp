@@ -15,7 +15,7 @@ namespace {
 template <int Dim>
 double fastest_of_side(const Domain<Dim>& domain, int axis, int side, double t) {
   const SideType type = domain.sides.type(axis, side);
-  if (type != SideType::inflow && type != SideType::moving_wall) return 0;
+  if (type != SideType::inflow && type != SideType::moving_wall && type != SideType::waves) return 0;
   double fastest = 0;
   for_each_index_in_order(domain.layout, faces_of_side(domain.layout, axis, side), [&](Site, const IVec<Dim>& i) {
     const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(axis));

@@ -42,7 +42,7 @@ FaceField<Dim> flow_through_faces(const Domain<Dim>& domain, const GapFlow<Dim>&
 template <int Dim>
 std::optional<FaceField<Dim>> path_beyond_sides(const Domain<Dim>& domain, const State<Dim>& before,
                                                 Divergence divergence, const FaceField<Dim>& u) {
-  if (!domain.sides.any_inflow() || divergence == Divergence::swells) return {};
+  if ((!domain.sides.any_inflow() && !domain.sides.any_waves()) || divergence == Divergence::swells) return {};
   FaceField<Dim> path = u;
   continue_beyond_inflows(domain.layout, domain.sides, before.time, path);
   let_air_follow(domain.layout, domain.sides, before.time, before.now->valid, path);

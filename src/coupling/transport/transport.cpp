@@ -200,7 +200,7 @@ struct Carried {
 template <int Dim>
 const FaceField<Dim>& continued_flow(const Domain<Dim>& domain, const FaceField<Dim>& u, double t, bool beyond_walls,
                                      FaceField<Dim>& own) {
-  if (!beyond_walls && !domain.sides.any_inflow()) return u;
+  if (!beyond_walls && !domain.sides.any_inflow() && !domain.sides.any_waves()) return u;
   own = u;
   if (beyond_walls) continue_beyond_walls(domain.layout, domain.sides, t, FaceValues::means, own);
   continue_beyond_inflows(domain.layout, domain.sides, t, own);

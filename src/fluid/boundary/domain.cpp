@@ -23,12 +23,12 @@ Geometry<Dim> grid_geometry(const DomainSpec& spec) {
 
 template <int Dim>
 Domain<Dim>::Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& r,
-                    std::vector<Box<Dim>> chosen)
+                    std::vector<Box<Dim>> chosen, const Vec3& gravity)
     : ranks(r),
       blocks(chosen.empty() ? partition(grid_geometry<Dim>(spec), r.size()) : std::move(chosen)),
       layout(grid_geometry<Dim>(spec), blocks[std::size_t(r.rank())], reach + reach_of_stencils),
       halo(layout, blocks, r),
-      sides(spec, flow) {}
+      sides(spec, flow, gravity) {}
 
 template struct Domain<2>;
 template struct Domain<3>;

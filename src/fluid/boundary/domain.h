@@ -16,9 +16,10 @@ struct Domain {
   Halo<Dim> halo;
   DomainBoundary<Dim> sides;
 
-  // `reach`: largest number of cells that a step carries values across. `blocks` empty: of equal size.
-  Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& ranks,
-         std::vector<Box<Dim>> blocks = {});
+  // `reach`: largest number of cells that a step carries values across. `blocks` empty: of equal size. `gravity`
+  // (m/s^2) is for waves at sides.
+  Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& ranks, std::vector<Box<Dim>> blocks = {},
+         const Vec3& gravity = Vec3::Zero());
   Domain(const Domain&) = delete;
 
   // Half width of the level-set band, m: the cells that a step can cross plus the reach of the stencils.

@@ -8,19 +8,22 @@
 namespace seiche {
 
 template <int Dim>
-DomainBoundary<Dim>::DomainBoundary(const DomainSpec& domain, WallFlow flow) : flow_(flow) {
+DomainBoundary<Dim>::DomainBoundary(const DomainSpec& domain, WallFlow flow, const Vec3& gravity) : flow_(flow) {
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
       const SideSpec& spec = domain.sides[a][side];
       types_[a][side] = spec.type;
       velocity_.emplace_back(spec.velocity);
       pressure_.emplace_back(spec.pressure);
+      if (spec.type == SideType::waves)
+        waves_[a][side] = std::make_shared<const WaveSide>(spec.waves, domain, a, side, gravity);
     }
 }
 
 template <int Dim>
 double DomainBoundary<Dim>::velocity(int axis, int side, int component, const Vec<Dim>& x, double t) const {
   const SideType s = types_[axis][side];
+  if (s == SideType::waves) return waves_[axis][side]->velocity(component, extend<Dim>(x), t);
   if (s != SideType::inflow && s != SideType::moving_wall) return 0;
   return velocity_[2 * axis + side].component(component, extend<Dim>(x), t);
 }
@@ -51,8 +54,13 @@ bool DomainBoundary<Dim>::any_inflow() const {
 }
 
 template <int Dim>
+bool DomainBoundary<Dim>::any_waves() const {
+  return any({SideType::waves});
+}
+
+template <int Dim>
 bool DomainBoundary<Dim>::any_passes() const {
-  return any({SideType::inflow, SideType::outflow});
+  return any({SideType::inflow, SideType::outflow, SideType::waves});
 }
 
 template <int Dim>
@@ -66,7 +74,8 @@ Extensions<Dim> DomainBoundary<Dim>::velocity_extensions(int component) const {
   Extensions<Dim> e;
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
-      const bool through = type(a, side) == SideType::inflow || type(a, side) == SideType::outflow;
+      const SideType s = type(a, side);
+      const bool through = s == SideType::inflow || s == SideType::outflow || s == SideType::waves;
       e[a][side] = through ? Extension::constant : Extension::mirror;
       if (a != component && sticks(a, side)) e[a][side] = Extension::linear;
     }

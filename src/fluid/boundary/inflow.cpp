@@ -73,6 +73,22 @@ void continue_component(const Layout<Dim>& layout, const DomainBoundary<Dim>& si
   });
 }
 
+// Fills the layers of the component across a side: u(k-th outside) = 2 u(side) - u(k-th inside), k <= odd_layers.
+template <int Dim>
+void continue_straight(const Layout<Dim>& layout, int axis, int side, FaceField<Dim>& u) {
+  constexpr int odd_layers = 2;
+  const int n = layout.geometry().cells[axis], edge = side == 0 ? 0 : n;
+  const Site inward = (side == 0 ? 1 : -1) * layout.stride(axis);
+  Box<Dim> box = layout.padded();
+  const int layers = side == 0 ? edge - box.lower[axis] : box.upper[axis] - 1 - edge;
+  if (layers <= 0) return;
+  box.lower[axis] = edge, box.upper[axis] = edge + 1;
+  for_each_index_in_order(layout, box, [&](Site s, const IVec<Dim>&) {
+    double* v = &u.at(axis, s);
+    for (int k = 1; k <= layers; ++k) v[-k * inward] = 2 * v[0] - v[std::min({k, odd_layers, n}) * inward];
+  });
+}
+
 }  // namespace
 
 // The path is at to + r (from - to) at time r dt before its end.
@@ -129,6 +145,7 @@ template <int Dim>
 void continue_beyond_inflows(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, double t, FaceField<Dim>& u) {
   for (int axis = 0; axis < Dim; ++axis)
     for (int side = 0; side < 2; ++side) {
+      if (sides.type(axis, side) == SideType::waves) continue_straight(layout, axis, side, u);
       if (sides.type(axis, side) != SideType::inflow) continue;
       for (int component = 0; component < Dim; ++component)
         continue_component(layout, sides, axis, side, t, component, u);

@@ -28,7 +28,8 @@ Vec<Dim> velocity_of(const DomainBoundary<Dim>& sides, const Entry<Dim>& entry);
 
 // Extends u (m/s, ghosts filled) beyond faces of inflow sides that let liquid in: odd about the velocity prescribed
 // there at time t for two layers, constant beyond. Applies to all components, so that interpolation returns the
-// prescribed velocity at the side. Local.
+// prescribed velocity at the side. At sides with waves the component across is odd about the velocity of the face.
+// Local.
 template <int Dim>
 void continue_beyond_inflows(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, double t, FaceField<Dim>& u);
 

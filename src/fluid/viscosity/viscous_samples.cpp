@@ -113,14 +113,14 @@ class Sampling {
     return out_.psi.at(axis, f) <= 0 || closed;
   }
 
-  // Walls and inflow give their velocity, outflow the velocity before the solve. Free-slip sides give none.
+  // Walls and inflow give their velocity, outflow the velocity before the solve. Sides without shear give none.
   void beyond(int axis, Site f, const IVec<Dim>& i, const std::array<int, Dim>& passed) {
     bool outflow = false;
     for (int b = 0; b < Dim; ++b) {
       if (passed[b] < 0) continue;
       const SideType type = in_.sides.type(b, passed[b]);
       outflow = outflow || type == SideType::outflow;
-      if (b == axis || type == SideType::outflow || type == SideType::free_slip) continue;
+      if (b == axis || type == SideType::outflow || in_.sides.slips(b, passed[b])) continue;
       Vec<Dim> x = layout_.position(i, face_offset<Dim>(axis));
       x[b] = layout_.geometry().lower[b] + (passed[b] == 0 ? 0 : layout_.h() * layout_.geometry().cells[b]);
       return give(axis, f, in_.sides.velocity(b, passed[b], axis, x, in_.time));
@@ -146,7 +146,7 @@ class Sampling {
       const int other = a == axis ? b : a;
       for (int n = 0; n < 2; ++n) {
         const int side = side_at(layout_, other, i[other] + n);
-        const bool slips = side >= 0 && in_.sides.type(other, side) == SideType::free_slip;
+        const bool slips = side >= 0 && in_.sides.slips(other, side);
         if (!slips && out_.share.edge[p][std::size_t(f + n * layout_.stride(other))] > 0) return true;
       }
     }

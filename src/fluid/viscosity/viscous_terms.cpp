@@ -94,6 +94,7 @@ bool ViscousTerms<Dim>::weigh_by_sides(int plane, Site e, std::array<double, 2>&
     if (side < 0) continue;
     switch (in_.sides.type(across, side)) {
       case SideType::free_slip:
+      case SideType::waves:
         return false;
       case SideType::outflow:
         weight[n] *= s_.plain || in_.projection.has_gas() ? 0 : 2;

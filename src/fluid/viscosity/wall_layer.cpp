@@ -64,7 +64,8 @@ template <int Dim>
 bool is_near_opening(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, int axis, const IVec<Dim>& i) {
   const int n = layout.geometry().cells[axis];
   const auto opens = [&](int side) {
-    return sides.type(axis, side) == SideType::inflow || sides.type(axis, side) == SideType::outflow;
+    const SideType type = sides.type(axis, side);
+    return type == SideType::inflow || type == SideType::outflow || type == SideType::waves;
   };
   return !layout.geometry().periodic[axis] && ((i[axis] < 3 && opens(0)) || (i[axis] > n - 3 && opens(1)));
 }

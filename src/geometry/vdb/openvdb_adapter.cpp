@@ -256,7 +256,7 @@ void copy_voxels(const GridType& grid, Block& block, Store&& store) {
 
 Grid to_dense(const OpenFrame& open, const openvdb::GridBase& source) {
   Grid grid;
-  grid.name = source.getName();
+  grid.name = source.getName() == "velocity" ? velocity_grid : source.getName();
   grid.kind = kind_of(source);
   Block block;
   block.upper = open.cells;
@@ -337,7 +337,7 @@ SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& 
   return mesh;
 }
 
-std::string encode(const Frame& frame) {
+std::string encode(const Frame& frame, const std::string& velocity) {
   initialize();
   const openvdb::MetaMap meta = metadata_of(frame);
   openvdb::GridCPtrVec grids;
@@ -348,7 +348,7 @@ std::string encode(const Frame& frame) {
     }
     const openvdb::GridBase::Ptr result = to_openvdb(frame, grid);
     result->insertMeta(meta);
-    result->setName(grid.name);
+    result->setName(grid.name == velocity_grid ? velocity : grid.name);
     result->setTransform(scale_and_translation());
     result->addStatsMetadata();
     grids.push_back(result);

@@ -48,14 +48,18 @@ struct Frame {
   std::vector<Grid> grids;
 };
 
+inline const std::string velocity_grid = "vel";  // in frames; in files also "velocity"
+
 // "free_surface", the level set as the solver has it, if there is one, else "surface".
 std::string level_set_name(const Frame& frame);
 
 // Serialises a frame to the bytes of a .vdb file (Blosc, active mask, statistics metadata, cell-centre transform).
 // The domain is the box from voxel 0 to the highest upper of all blocks. Throws Error(cannot_continue) naming grid and
 // voxel on a value that is not finite.
-std::string encode(const Frame& frame);
-// Reads a frame written by encode(), each grid as one dense block over the frame's domain. Throws Error(bad_input).
+// `velocity`: name in the file of the grid velocity_grid.
+std::string encode(const Frame& frame, const std::string& velocity = velocity_grid);
+// Reads a frame written by encode(), each grid as one dense block over the frame's domain. The velocity is named
+// velocity_grid, whatever its name in the file. Throws Error(bad_input).
 Frame decode(const std::filesystem::path& file);
 
 }  // namespace seiche::vdb

@@ -169,6 +169,17 @@ TEST_CASE("a frame read back has the same voxels and metadata") {
   }
 }
 
+TEST_CASE("the velocity may have another name in the file; both are read alike") {
+  const TemporaryFolder folder;
+  const vdb::Frame frame = ball_frame(3);
+  const std::string bytes = vdb::encode(frame, "velocity");
+  CHECK(bytes.size() < vdb::encode(frame).size() + 100);  // written once
+  const vdb::Frame read = vdb::decode(write(folder, "named.vdb", bytes));
+  require_equal_voxels(find(frame, "vel"), find(read, "vel"));
+  if (installed("command -v vdb_print"))
+    CHECK(run("vdb_print " + (folder.path / "named.vdb").string() + " | grep -qw velocity") == 0);
+}
+
 TEST_CASE("a frame without any liquid and one of nothing but liquid are read back") {
   const TemporaryFolder folder;
   const double sign = GENERATE(-1.0, 1.0);

@@ -33,6 +33,8 @@ std::string geometry(int dimension, const std::string& shape) {
 }
 
 std::string side_text(int dimension, const std::string& side) {
+  if (side == "waves")
+    return R"({ type = "waves", waves = { depth = 1, height = 0.05, period = 2, spectrum = "jonswap", level = 1 } })";
   if (side == "outflow") return R"({ type = "outflow", pressure = "10*t" })";
   if (side == "inflow" || side == "moving_wall") {
     return fmt::format("{{ type = \"{}\", velocity = {} }}", side, vector_text(dimension, {"\"y*(1-y)\"", "0", "0.5"}));
@@ -138,8 +140,8 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
       form +
       "invert = false\nscale = 1.5\nrotate = { axis = [0, 0, 1], degrees = 10 }\ntranslate = " + v("0.1", "0", "0") +
       "\n";
-  std::string text =
-      fmt::format("title = \"rich \\\"scene\\\"\"\ndimension = {}\ngravity = {}\n", dimension, v("0", "-9.81", "1"));
+  std::string text = fmt::format("title = \"rich \\\"scene\\\"\"\ndimension = {}\ngravity = {}\n", dimension,
+                                 v("0", "-9.81", side == "waves" ? "0" : "1"));
   text += fmt::format("[domain]\nlower = {}\nupper = {}\ncell_size = 0.125\n", v("0", "0", "0"), v("1", "2", "1"));
   text += fmt::format("[domain.boundary]\nx_lower = {}\nx_upper = {}\ny_lower = \"no_slip\"\n",
                       side_text(dimension, side), side == "periodic" ? "\"periodic\"" : "{ type = \"outflow\" }");

@@ -57,6 +57,7 @@ std::string scene_for(const Option& option) {
   const Condition& condition = option.only_for;
   if (condition.key == "shape") shape = condition.values[0];
   if (condition.key == "type") side = condition.values[0];
+  if (option.path.rfind("domain.boundary.x_lower.waves", 0) == 0) side = "waves";
   if (condition.key == "kind" && option.path.rfind("probe[]", 0) == 0) probe = condition.values[0];
   for (const char* key : {"from", "to", "count"})
     if (option.path == std::string("probe[].") + key) probe = "line";

@@ -4,6 +4,7 @@
 #include "base/expression.h"
 #include "base/scene.h"
 #include "scene/waves.h"
+#include "scene/writer.h"
 #include "unit/scene/common.h"
 
 namespace waves_tests {
@@ -115,6 +116,33 @@ TEST_CASE("wave makers say what does not fit") {
       "[[solid]]\nkind = \"kinematic\"\nshape = \"box\"\nlower = [0, 0, 0]\nupper = [1, 1, 1]\n"
       "motion = { waves = { depth = 1, period = 2, height = 0.1 }, translate = [\"t\", 0, 0] }\n";
   CHECK_THROWS_WITH(parse(small_scene + both), Contains("leave translate and rotate out"));
+}
+
+TEST_CASE("waves at sides are read, and say what does not fit") {
+  const auto side = [](const std::string& name, const std::string& more) {
+    return small_scene + "[domain.boundary]\n" + name + " = { type = \"waves\", waves = { depth = 0.5, period = 1" +
+           more + " } }\n";
+  };
+  const Scene good = parse(side("x_upper", ", height = 0.05, theory = \"nonlinear\", direction = [-1, 0, 0.5]"));
+  const SideSpec& spec = good.domain.sides[0][1];
+  CHECK(spec.type == SideType::waves);
+  CHECK(spec.waves.absorbs);
+  CHECK(spec.waves.towards == Vec3(-1, 0, 0.5));
+  const std::string written = write_scene(good);
+  CHECK(write_scene(parse(written)) == written);
+  CHECK_THROWS_WITH(parse(side("y_lower", ", height = 0.05")), Contains("waves pass upright sides alone"));
+  CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.0, absorbs = false")), Contains("is a wall"));
+  CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.45")), Contains("break in 0.5 m of depth"));
+  CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.05, level = 1.5")),
+                    Contains("outside of the domain, 0 to 1 m"));
+  CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.05, direction = [1, 1, 0]")), Contains("must be horizontal"));
+  CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.05, theory = \"stokes\", spectrum = \"jonswap\"")),
+                    Contains("is for regular waves"));
+  CHECK_THROWS_WITH(parse("gravity = [0, 0, 0]\n" + side("x_lower", ", height = 0.05")),
+                    Contains("waves need gravity"));
+  CHECK_THROWS_WITH(parse("gravity = [0, -9, 1]\n" + side("x_lower", ", height = 0.05")),
+                    Contains("need gravity along an axis"));
+  CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.05") + "[gas]\ndensity = 1\n"), Contains("leave [gas] out"));
 }
 
 }  // namespace waves_tests

@@ -13,7 +13,7 @@ namespace {
 
 const std::vector<std::string> shapes{"box",  "sphere",     "cylinder",  "capsule",   "plane",
                                       "mesh", "expression", "level_set", "height_map"};
-const std::vector<std::string> sides{"free_slip", "no_slip", "periodic", "inflow", "outflow", "moving_wall"};
+const std::vector<std::string> sides{"free_slip", "no_slip", "periodic", "inflow", "outflow", "moving_wall", "waves"};
 const std::vector<std::string> probes{"pressure", "velocity", "surface_height", "front", "displacement", "flux",
                                       "volume",   "force",    "torque",         "line",  "plane"};
 
