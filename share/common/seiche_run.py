@@ -43,8 +43,8 @@ class Solid:
         self.kind = table.get("kind", "static")
         self.is_container = bool(table.get("invert", False))
         self.moves = self.kind != "static"
-        self.deforms = self.kind == "elastic"
-        self.is_body = self.kind not in ("static", "kinematic")
+        self.deforms = self.kind in ("elastic", "deforming")
+        self.is_body = self.kind not in ("static", "kinematic", "deforming")
         self.color = BODY_COLORS[bodies % len(BODY_COLORS)] if self.is_body else (
             KINEMATIC_COLOR if self.moves else STATIC_COLOR)
 

@@ -64,12 +64,21 @@ struct ScatterSpec {
   bool turned = false;                  // each copy is turned at random
 };
 
+// Meshes of one topology that a solid takes on one after the other. Its shape names the file of the first.
+struct SequenceSpec {
+  int meshes = 0;     // files, whose names count up
+  double rate = 0;    // meshes a second
+  double start = 0;   // time of the first mesh, s
+  bool loop = false;  // the first mesh follows the last; else the solid rests before and after
+};
+
 struct SolidSpec {
   std::string name;
   SolidKind kind = SolidKind::fixed;
   ShapeSpec shape;
   Slip slip = Slip::free_slip;
   MotionSpec motion;                      // kinematic
+  SequenceSpec sequence;                  // deforming
   RigidSpec rigid;                        // rigid and elastic
   ElasticSpec elastic;                    // elastic
   std::map<std::string, double> numbers;  // values of the keys that only this kind has, listed in its table row

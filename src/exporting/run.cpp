@@ -117,7 +117,7 @@ void write_meshes(const Job& job, const Say& say) {
 }
 
 bool has_pose(const SolidSpec& solid) {
-  return solid.kind.moves() && !solid.kind.has_elements;
+  return solid.kind.moves() && !solid.kind.deforms();
 }
 
 SurfaceMesh in_body_frame(SurfaceMesh mesh, const Pose& pose) {

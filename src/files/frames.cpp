@@ -156,14 +156,14 @@ vdb::Grid FrameWriter::gather(const FrameLabel& label, FrameField field, PhaseFa
 void FrameWriter::write(const FrameLabel& label, const Simulation& simulation, PhaseFault fault) {
   const vdb::Frame frame = gather(label, simulation, fault);
   agree_on_root(ranks_, fmt::format("writing frame {}", label.number), [&] {
-    const std::vector<VolumeFrame> volumes = elastic_volumes(label, simulation);
+    std::vector<VolumeFrame> volumes = elastic_volumes(label, simulation);
     if (wants(scene_.output.formats, "vdb")) {
       write_file(paths_.frames() / frame_file("frame", label.number, "vdb"),
                  vdb::encode(frame, scene_.output.velocity_name));
     }
     if (wants(scene_.output.formats, "vtk")) write_fluid(frame);
     if (!scene_.solids.empty()) write_solids(label, simulation);
-    if (!volumes.empty()) write_elastic(label, volumes);
+    if (!volumes.empty()) write_elastic(label, std::move(volumes));
     if (!scene_.joints.empty()) write_joints(label, simulation);
   });
 }
@@ -187,13 +187,13 @@ void FrameWriter::write_solids(const FrameLabel& label, const Simulation& simula
   write_file(paths_.frames() / "solids.pvd", vtk::series("solids", "vtu", label.number, scene_.time.frame_rate));
 }
 
-// One entry a solid of the scene; empty if no solid is elastic. Values are checked before anything is written.
+// One entry a solid of the scene; empty if no solid deforms. Values are checked before anything is written.
 std::vector<VolumeFrame> FrameWriter::elastic_volumes(const FrameLabel& label, const Simulation& simulation) const {
   std::vector<VolumeFrame> volumes(scene_.solids.size());
   bool any = false;
   for (std::size_t n = 0; n < volumes.size(); ++n) {
     volumes[n] = simulation.solid_volume(n);
-    any = any || !volumes[n].elements.empty();
+    any = any || !volumes[n].rest.empty();
     const std::string bad = first_not_finite(volumes[n]);
     if (bad.empty()) continue;
     throw Error(ExitCode::cannot_continue,
@@ -203,19 +203,23 @@ std::vector<VolumeFrame> FrameWriter::elastic_volumes(const FrameLabel& label, c
   return any ? volumes : std::vector<VolumeFrame>{};
 }
 
-void FrameWriter::write_elastic(const FrameLabel& label, const std::vector<VolumeFrame>& volumes) const {
-  write_file(paths_.frames() / frame_file("elastic", label.number, "vtu"),
-             vtk::volumes(volumes, names_of(scene_), label.time));
-  write_file(paths_.frames() / "elastic.pvd", vtk::series("elastic", "vtu", label.number, scene_.time.frame_rate));
+void FrameWriter::write_elastic(const FrameLabel& label, std::vector<VolumeFrame> volumes) const {
   const std::vector<std::string> stems = point_cache::stems(names_of(scene_));
+  bool any = false;
   for (std::size_t n = 0; n < volumes.size(); ++n) {
-    if (volumes[n].elements.empty()) continue;
+    if (volumes[n].rest.empty()) continue;
     const std::filesystem::path stem = paths_.frames() / stems[n];
     const std::filesystem::path mesh = stem.string() + ".obj";
     if (label.number == 0 || !std::filesystem::exists(mesh))
       write_file(mesh, point_cache::rest_surface(volumes[n], surfaces_[n]));
     point_cache::add_sample(stem.string() + ".pc2", label.number, point_cache::surface_points(volumes[n]));
+    any = any || !volumes[n].elements.empty();
+    if (volumes[n].elements.empty()) volumes[n] = {};
   }
+  if (!any) return;
+  write_file(paths_.frames() / frame_file("elastic", label.number, "vtu"),
+             vtk::volumes(volumes, names_of(scene_), label.time));
+  write_file(paths_.frames() / "elastic.pvd", vtk::series("elastic", "vtu", label.number, scene_.time.frame_rate));
 }
 
 }  // namespace seiche

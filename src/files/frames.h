@@ -41,7 +41,7 @@ class FrameWriter {
   vdb::Grid gather(const FrameLabel& label, FrameField field, PhaseFault fault) const;
   void write_solids(const FrameLabel& label, const Simulation& simulation);
   std::vector<VolumeFrame> elastic_volumes(const FrameLabel& label, const Simulation& simulation) const;
-  void write_elastic(const FrameLabel& label, const std::vector<VolumeFrame>& volumes) const;
+  void write_elastic(const FrameLabel& label, std::vector<VolumeFrame> volumes) const;
   void write_joints(const FrameLabel& label, const Simulation& simulation) const;
   void write_fluid(const vdb::Frame& frame) const;
   bool wants(const std::vector<std::string>& list, const std::string& name) const;

@@ -100,7 +100,7 @@ void measure_solids_at_start(const Scene& scene, const Simulation& simulation, R
     size.facets += double(surfaces[k].triangles.size() + surfaces[k].segments.size());
     const double nodes = double(volumes[k].rest.size());
     size.nodes += nodes;
-    if (nodes > 0) size.factors += factor_bytes(scene.dimension, int(nodes) * scene.dimension);
+    if (!volumes[k].elements.empty()) size.factors += factor_bytes(scene.dimension, int(nodes) * scene.dimension);
   }
   size.solid_bytes = bytes_of_solids(scene, surfaces, volumes, simulation);
 }

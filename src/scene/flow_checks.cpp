@@ -69,7 +69,7 @@ std::optional<double> bad_time(const LiquidSourceSpec& source, double end) {
 void check_attached(SceneContext& context, const TomlNode& root, const Scene& scene) {
   std::vector<std::string> names;
   for (const SolidSpec& solid : scene.solids)
-    if (!solid.kind.has_elements) names.push_back(solid.name);
+    if (!solid.kind.deforms()) names.push_back(solid.name);
   const auto check = [&](const std::vector<LiquidSourceSpec>& list, const char* name) {
     for (std::size_t n = 0; n < list.size(); ++n) {
       const std::string wanted = list[n].attached_to.value_or("");
@@ -79,7 +79,7 @@ void check_attached(SceneContext& context, const TomlNode& root, const Scene& sc
       const std::string path = fmt::format("liquid.{}.{}.attached_to", name, n);
       context.report(path, line_of(root, path),
                      fmt::format("{}: {}; {}", path,
-                                 named != scene.solids.end() ? "\"" + wanted + "\" is an elastic solid, which deforms"
+                                 named != scene.solids.end() ? "\"" + wanted + "\" is a solid that deforms"
                                                              : "no solid is named \"" + wanted + "\"",
                                  near            ? "did you mean \"" + *near + "\"?"
                                  : names.empty() ? "the scene has no other"

@@ -66,6 +66,18 @@ void check_force(const EntryChecker& c, const Scene& scene, const ForceSpec& for
                                      solid.name));
 }
 
+// Solids that give back energy by their own motion, or whose points all move as prescribed.
+void check_rebound(const EntryChecker& c, const Scene& scene, const ContactSpec& contact) {
+  for (const SolidSpec& solid : scene.solids) {
+    const SolidKind& kind = solid.kind;
+    const bool rebounds = !kind.deforms() && (!kind.is_free() || kind.may_turn);
+    if (!rebounds && fits_any(solid.name, contact.between))
+      return c.report("restitution", fmt::format("\"{}\" is {}; restitution is for rigid, kinematic and static solids, "
+                                                 "so name these in between",
+                                                 solid.name, kind.name));
+  }
+}
+
 void check_contact(const EntryChecker& c, const Scene& scene, const ContactSpec& contact) {
   if (contact.between.size() > 2) c.report("between", "names one or two groups of solids");
   std::vector<std::string> names = names_of(scene.solids, false);
@@ -77,7 +89,11 @@ void check_contact(const EntryChecker& c, const Scene& scene, const ContactSpec&
   if (domain != contact.between.end() && (contact.between.size() == 1 || !contact.collide))
     c.report("between", contact.collide ? "name the solids that touch the domain's sides"
                                         : "solids cannot pass through the domain's sides; give a side outflow");
-  if (contact.collide && !contact.friction) c.report("between", "give friction, or collide = false");
+  if (contact.collide && !contact.friction && !contact.restitution)
+    c.report("between", "give friction, restitution, or collide = false");
+  if (!contact.collide && contact.restitution)
+    c.report("restitution", "solids that do not collide have no restitution");
+  if (contact.restitution.value_or(0) > 0) check_rebound(c, scene, contact);
   if (!contact.collide && contact.friction) c.report("friction", "solids that do not collide have no friction");
 }
 

@@ -200,6 +200,12 @@ Section<ContactSpec> contact_section() {
                     .unset = "by the solids' own coefficients",
                     .doc = "Coulomb's coefficient where they touch"},
                    &S::friction),
+      value_key<S>({.key = "restitution",
+                    .range = between(0, 1),
+                    .unset = "0: contact takes the energy of an impact",
+                    .doc = "speed of rebound over speed of approach, of rigid solids that meet each other, kinematic "
+                           "or static solids, or sides"},
+                   &S::restitution),
       value_key<S>({.key = "collide", .type = T::boolean, .doc = "false: they pass through each other"}, &S::collide),
   };
   s.finish = [](SceneContext& c, const Place& p, S& contact) { contact.where = c.where(p.node->line); };

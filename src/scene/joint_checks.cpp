@@ -52,7 +52,7 @@ class JointChecker {
         const auto near = suggest(name, names);
         report("between", fmt::format("no solid is named \"{}\"; {}", name,
                                       near ? "did you mean \"" + *near + "\"?" : "there is " + quoted_list(names)));
-      } else if (solid && !solid->kind.has_elements && solid->kind.is_free() && !solid->kind.may_turn) {
+      } else if (solid && !may_be_jointed(solid->kind)) {
         known = false;
         report("between", fmt::format("solid \"{}\" is {}; joints hold rigid, elastic, kinematic and static solids",
                                       name, solid->kind.name));
@@ -64,6 +64,10 @@ class JointChecker {
              fmt::format("\"{}\" and \"{}\" do not move by forces, so a joint does nothing; make one of them "
                          "rigid",
                          joint_.between[0], joint_.between[1]));
+  }
+
+  static bool may_be_jointed(const SolidKind& kind) {
+    return !kind.follows_meshes && (kind.has_elements || !kind.is_free() || kind.may_turn);
   }
 
   bool is_elastic(const std::string& name) const {

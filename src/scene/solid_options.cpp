@@ -1,4 +1,7 @@
 // Keys of [[solid]].
+#include <fmt/format.h>
+
+#include "base/numbered_files.h"
 #include "base/solid_spec.h"
 #include "coupling/solids/solid_kinds.h"
 #include "scene/copies.h"
@@ -39,6 +42,61 @@ Key<SolidSpec> kind_key() {
   }
   return choice_key<SolidSpec, SolidKind SolidSpec::*, SolidKind>({.key = "kind", .doc = doc}, &SolidSpec::kind,
                                                                   choices);
+}
+
+Section<SequenceSpec> sequence_section() {
+  constexpr int most_meshes = 100000;
+  Section<SequenceSpec> s;
+  s.keys = {
+      value_key<SequenceSpec>({.key = "meshes",
+                               .type = T::integer,
+                               .range = between(2, most_meshes),
+                               .presence = Presence::required,
+                               .doc = "number of files; their names count up from that of file, as in flag.0000.ply, "
+                                      "flag.0001.ply, ..."},
+                              &SequenceSpec::meshes),
+      value_key<SequenceSpec>({.key = "rate",
+                               .unit = "1/s",
+                               .range = positive(),
+                               .presence = Presence::required,
+                               .doc = "meshes a second; in between the points move as cubics in time, with steady "
+                                      "velocities"},
+                              &SequenceSpec::rate),
+      value_key<SequenceSpec>({.key = "start", .unit = "s", .doc = "time of the first mesh"}, &SequenceSpec::start),
+      value_key<SequenceSpec>({.key = "loop",
+                               .type = T::boolean,
+                               .doc = "true: the first mesh follows the last, also before start; false: the solid "
+                                      "rests before the first mesh and after the last"},
+                              &SequenceSpec::loop),
+  };
+  return s;
+}
+
+// Reports files of a sequence that cannot be read, the first alone.
+void check_files(SceneContext& c, const Place& p, const SolidSpec& solid) {
+  const std::string path = join_path(p.path, "file");
+  const int line = p.node->find("file")->value.line;
+  const std::vector<std::filesystem::path> files = numbered_files(solid.shape.file, solid.sequence.meshes);
+  if (files.empty())
+    return c.report(path, line,
+                    fmt::format("{}: the name of the first mesh of a sequence needs a number that counts up, as in "
+                                "flag.0000.ply; '{}' has none of up to nine digits",
+                                path, solid.shape.file.filename().string()));
+  for (const std::filesystem::path& file : files) {
+    std::filesystem::path found;
+    const std::string fault = fault_of_path(c, file, found);
+    if (!fault.empty())
+      return c.report(path, line, fmt::format("{}: {}; sequence.meshes counts {} files", path, fault, files.size()));
+  }
+}
+
+void finish_deforming(SceneContext& c, const Place& p, const SolidSpec& solid) {
+  if (solid.shape.kind != "mesh")
+    return c.report(
+        p, fmt::format("{}: a deforming solid is a sequence of meshes; give shape = \"mesh\"", section_title(p.path)));
+  if (solid.shape.invert)
+    return c.report(p, join_path(p.path, "invert") + ": a deforming solid cannot be the outside of its meshes");
+  check_files(c, p, solid);
 }
 
 // A number that belongs to one kind only.
@@ -86,6 +144,23 @@ Section<MotionSpec> motion_section() {
   return s;
 }
 
+namespace {
+
+std::vector<Key<SolidSpec>> prescribed_keys() {
+  return {inline_key<SolidSpec>({.key = "motion",
+                                 .only_for = {"kind", {"kinematic"}},
+                                 .presence = Presence::required,
+                                 .doc = "how it moves: translate and/or rotate as functions of t"},
+                                &SolidSpec::motion, motion_section()),
+          inline_key<SolidSpec>({.key = "sequence",
+                                 .only_for = {"kind", {"deforming"}},
+                                 .presence = Presence::required,
+                                 .doc = "meshes that it takes on one after the other, of which file is the first"},
+                                &SolidSpec::sequence, sequence_section())};
+}
+
+}  // namespace
+
 Section<SolidSpec> solid_section() {
   Section<SolidSpec> s;
   s.keys = {
@@ -96,11 +171,7 @@ Section<SolidSpec> solid_section() {
   s.keys.push_back(choice_key<SolidSpec, Slip SolidSpec::*, Slip>(
       {.key = "slip", .doc = "whether liquid slips along the surface or sticks to it"}, &SolidSpec::slip,
       {{"free_slip", Slip::free_slip}, {"no_slip", Slip::no_slip}}));
-  s.keys.push_back(inline_key<SolidSpec>({.key = "motion",
-                                          .only_for = {"kind", {"kinematic"}},
-                                          .presence = Presence::required,
-                                          .doc = "how it moves: translate and/or rotate as functions of t"},
-                                         &SolidSpec::motion, motion_section()));
+  for (Key<SolidSpec>& key : prescribed_keys()) s.keys.push_back(std::move(key));
   for (Key<SolidSpec>& key : lift<SolidSpec>(rigid_section(), &SolidSpec::rigid)) s.keys.push_back(std::move(key));
   s.keys.push_back(value_key<SolidSpec>({.key = "friction",
                                          .range = between(0, number_limit),
@@ -117,7 +188,9 @@ Section<SolidSpec> solid_section() {
   s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) {
     const bool has_elements = solid.kind.has_elements;
     finish_shape(c, p, solid.shape, has_elements ? MeshFiles::surfaces_and_elements : MeshFiles::surfaces);
-    if (!solid.kind.is_free() || !c.clean(p.path)) return;
+    if (!c.clean(p.path)) return;
+    if (solid.kind.follows_meshes) return finish_deforming(c, p, solid);
+    if (!solid.kind.is_free()) return;
     has_elements ? finish_elastic(c, p, solid) : finish_rigid(c, p, solid);
   };
   return s;

@@ -138,6 +138,36 @@ spring_damping = 1.0
 """
 
 
+# A ball that bounces off the floor in the water of the dam, and off a second one that falls onto it.
+BOUNCE = TWENTY_STEPS + rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.09]\nradius = 0.07\nvelocity = [0.0, -1.0]', 900.0)
+BOUNCE += rigid("pebble", 'shape = "sphere"\ncenter = [0.2, 0.37]\nradius = 0.05\nvelocity = [0.1, -1.5]', 2500.0)
+BOUNCE += """\
+[[contact]]
+between = ["ball", "pebble"]
+restitution = 0.8
+[[contact]]
+between = ["*", "domain"]
+restitution = 0.9
+"""
+
+# A diamond that beats in the splash, in place of the ball; a rigid ball lies in its way.
+BEATING = (SPLASH.replace("end = 0.2", "end = 0.1").replace("frame_rate = 5.0", "frame_rate = 10.0")
+           .replace('kind = "kinematic"\nshape = "sphere"\ncenter = [0.6, 0.2, 0.3]\nradius = 0.12\n',
+                    'kind = "deforming"\nshape = "mesh"\nfile = "beat.0.obj"\nsequence = { meshes = 4, rate = 10.0, loop = true }\n')
+           .replace('motion = { translate = ["0.1*sin(6*t)", "0", "0"] }\n', ""))
+BEATING += rigid("ball", 'shape = "sphere"\ncenter = [0.86, 0.2, 0.3]\nradius = 0.1', 700.0)
+
+
+def write_beats(folder):
+    """Octahedra whose first axis grows and shrinks."""
+    corners = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    faces = [(a, b, c) if (a + b + c) % 2 == 0 else (a, c, b) for a in (1, 2) for b in (3, 4) for c in (5, 6)]
+    for n, size in enumerate((0.12, 0.14, 0.15, 0.13)):
+        rows = [f"v {0.6 + size * x} {0.2 + 0.14 * y} {0.3 + 0.14 * z}" for x, y, z in corners]
+        rows += ["f {} {} {}".format(*face) for face in faces]
+        (folder / f"beat.{n}.obj").write_text("\n".join(rows) + "\n")
+
+
 def viscous(text, viscosity):
     return text.replace("viscosity = 0.0", f"viscosity = {viscosity}").replace("friction =", 'slip = "no_slip"\nfriction =')
 
@@ -472,6 +502,21 @@ def sprung_ranks_agree_2d(bench):
     resumed_ranks_agree(bench, SPRUNG)
 
 
+def bounces_ranks_agree_2d(bench):
+    """Rigid balls with restitution on 1 and 3 ranks; three ranks resume with the same bits."""
+    ranks_agree(bench, BOUNCE, (3,))
+    expect(max(int(row["contacts"]) for row in stats(bench.path("one"))) > 0, "nothing is in contact")
+    resumed_ranks_agree(bench, BOUNCE)
+
+
+def beating_ranks_agree_3d(bench):
+    """A deforming solid beside a rigid ball on 1 and 3 ranks; three ranks resume with the same bits."""
+    write_beats(bench.folder)
+    ranks_agree(bench, BEATING, (3,))
+    expect(largest(table(bench.path("one"), "solids.csv"), "pin_fx") > 0, "nothing drives the solid")
+    resumed_ranks_agree(bench, BEATING)
+
+
 def viscous_ranks_agree_2d(bench):
     """Thick liquid that bends a gate and drags a box and a ball, on 1, 2 and 3 ranks."""
     ranks_agree(bench, THICK, (2, 3))
@@ -710,7 +755,8 @@ def air_killed_at_random(bench):
 
 TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, joints_ranks_agree_2d,
                        rigid_ranks_agree_3d,
-                       elastic_ranks_agree_2d, sheet_ranks_agree, sprung_ranks_agree_2d, viscous_ranks_agree_2d,
+                       elastic_ranks_agree_2d, sheet_ranks_agree, sprung_ranks_agree_2d, bounces_ranks_agree_2d,
+                       beating_ranks_agree_3d, viscous_ranks_agree_2d,
                        mud_ranks_agree_2d, gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d,
                        viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d,
                        volumes_beside_post_agree, volumes_ranks_agree_3d, volumes_under_gas_agree,

@@ -6,6 +6,7 @@ import struct
 import zlib
 
 from fuzzing.program import Program
+from fuzzing.shapes import BEATS
 
 LEVEL_SET_SCENE = """\
 dimension = {dim}
@@ -146,6 +147,10 @@ def hills(columns, rows):
 def make_assets(program, folder):
     """Contents of the files by name: "ball.obj", "block2.msh", ..."""
     files = {"ball.obj": obj(*surface()), "ball.ply": ply(*surface()), "ball.stl": stl(*surface())}
+    points, triangles = surface()
+    for n in range(BEATS):
+        size = 0.8 + 0.2 * math.sin(2 * math.pi * n / BEATS)
+        files[f"beat.{n}.obj"] = obj([[size * x, y, z] for x, y, z in points], triangles)
     files["hills2.png"], files["hills3.png"] = png(hills(7, 1)), png(hills(5, 6))
     for dim in (2, 3):
         for ending, write in (("msh", msh), ("mesh", medit), ("vtu", vtu)):

@@ -32,7 +32,7 @@ def is_fed(scene):
     for solid in scene.get("solid", []):
         pins = solid.get("pinned", [])
         moved = any("motion" in p for p in (pins if isinstance(pins, list) else [pins]))
-        if moved or solid["kind"] == "kinematic" or "body_force" in solid or "traction" in solid:
+        if moved or solid["kind"] in ("kinematic", "deforming") or "body_force" in solid or "traction" in solid:
             return True
     return False
 

@@ -69,6 +69,10 @@ def make_contacts(c, solids):
         here["collide"] = False
     else:
         here["friction"] = c.rng.choice([0.0, 0.4, 2.0])
+        rigid = names_of(solids, ("rigid",))
+        if rigid and c.rng.random() < 0.5:
+            here["between"] = [c.rng.choice(rigid), "domain"]
+            here["restitution"] = c.rng.choice([0.0, 0.5, 1.0])
     for key in here:
         c.use("contact[]", key)
     return [here]

@@ -1,7 +1,7 @@
 """Generators for every scene key that is not a choice of words, by table and key; None omits the key."""
 import math
 
-from fuzzing.shapes import AXES, SURFACES, fit_shape, number, point, rotation, unit_vector
+from fuzzing.shapes import AXES, BEATS, SURFACES, fit_shape, number, point, rotation, unit_vector
 
 CLOSED = ("free_slip", "no_slip")
 
@@ -361,6 +361,10 @@ VALUES = {
     ("gas", "velocity"): lambda c, _: flow(c, 0.5 * c.speed),
     ("solid[]", "name"): lambda c, _: c.rng.choice(["body", "Körper", "a b", "../up", "x" * 60]) + str(len(c.bodies)),
     ("solid[]", "motion"): lambda c, _: motion(c, "solid[].motion", 0.3 * c.radius),
+    ("solid[]", "sequence"): table_of("solid[].sequence"),
+    ("solid[].sequence", "meshes"): lambda c, _: BEATS,
+    ("solid[].sequence", "rate"): lambda c, _: number(BEATS / c.end),
+    ("solid[].sequence", "start"): lambda c, _: number(c.end * c.rng.choice([-0.3, 0.5])),
     ("solid[]", "density"): lambda c, here: None if "mass" in here else density(c),
     ("solid[]", "mass"): lambda c, here: None if "density" in here else number(density(c) * c.radius ** c.dim),
     ("solid[]", "center_of_mass"): lambda c, _: None,   # by tests/unit/scene/robots.cpp

@@ -9,7 +9,7 @@ namespace {
 
 template <int Dim>
 bool moves_alike(const Body<Dim>& other, const MotionSpec& pins) {
-  return !other.is_free() && same_motion(other.spec().motion, pins);
+  return !other.is_free() && !other.deforms() && same_motion(other.spec().motion, pins);
 }
 
 // One flag per surface point: set if `pins` hold it and, at t = 0, it lies in the other solid or within `clearance` (m)

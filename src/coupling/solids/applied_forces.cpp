@@ -96,6 +96,7 @@ class ForcesOnSolids {
 
   UnknownForce on(const Force<Dim>& force, const Participant<Dim>& p) const {
     UnknownForce f{Eigen::VectorXd::Zero(p.unknowns()), {}};
+    if (!p.body().is_free()) return f;
     if (const auto* elastic = dynamic_cast<const ElasticParticipant<Dim>*>(&p)) {
       force.spec.kind == ForceKind::wind ? wind_on_nodes(force, *elastic, f) : act_on_nodes(force, *elastic, f);
       return f;

@@ -2,6 +2,7 @@
 #include "coupling/solids/applied_forces.h"
 #include "coupling/solids/joints.h"
 #include "coupling/solids/kind_elastic.h"
+#include "coupling/solids/rebound.h"
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/state/interaction.h"
 #include "coupling/state/state.h"
@@ -58,6 +59,7 @@ Interactions<Dim> make_interactions(const Domain<Dim>& domain, const std::vector
                                     const JointSet<Dim>& joints, const std::vector<Force<Dim>>& forces) {
   Interactions<Dim> list;
   list.push_back(std::make_unique<Cavities<Dim>>(bodies));
+  list.push_back(make_rebounds<Dim>());
   if (!joints.list.empty()) list.push_back(make_joint_interaction(joints));
   if (!forces.empty()) list.push_back(make_applied_forces(domain, forces));
   return list;

@@ -208,7 +208,8 @@ bool is_fed(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeom
   for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const Body<Dim>& body = solids.bodies[k];
     if (!body.is_prescribed()) continue;
-    fed = fed || (!ends_at(cavity.walls, body.spec().motion) && feeds(domain, g, component, cavity.components, k));
+    const bool leads_walls = !body.deforms() && ends_at(cavity.walls, body.spec().motion);
+    fed = fed || (!leads_walls && feeds(domain, g, component, cavity.components, k));
   }
   return fed;
 }
@@ -319,6 +320,7 @@ std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Sol
   if (closed.count == 0 || bodies.empty()) return joined;
   const Components<Dim> component = components_of_cells(domain, rows, closed);
   for (const BodyEntries& b : bodies) {
+    if (!motions[std::size_t(b.body)]) continue;  // it follows meshes
     const ElasticSolid<Dim>& solid = solids.bodies[std::size_t(b.body)].elastic();
     TouchedBody<Dim> body{domain, rows, closed, component, solid};
     body.look(b.entries, motions[std::size_t(b.body)]->state.u);

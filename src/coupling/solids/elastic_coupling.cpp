@@ -226,6 +226,43 @@ Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd
   return body.mass * f;
 }
 
+// Columns of J from the facets of the surface, and loads that bend it smoothly.
+template <int Dim>
+void hang_surface(const CoupledStep<Dim>& step, int k, const ElasticMotion& motion, int block,
+                  CouplingParts<Dim>& parts) {
+  const auto& [s, g, rows, closed, state, dt, horizon] = step;
+  SolidCoupling<Dim>& c = parts.coupling;
+  const Body<Dim>& body = s.solids.bodies[std::size_t(k)];
+  const FaceShares& shares = *g.shares[std::size_t(k)];
+  const FaceWeights& face_weights = *g.face_weights[std::size_t(k)];
+  const Vec<Dim> gravity = truncate<Dim>(s.fluids.gravity.of_step(state.time, dt));
+  BodyEntries mine{k, c.first[std::size_t(block)]};
+  add_to_rows(spread_shares(s.domain, shares, face_weights, with_row(rows)), rows, mine);
+  send_air_rows_to_owner(s.domain, rows, 0, mine.entries);
+  mine.shown = mine.entries.size();
+  add_to_rows(body.is_thin() ? keep_to_own_side(s.domain, body.elastic(), shares, face_weights, rows)
+                             : hang_on_facets(step, motion.state.u, gravity, mine, parts),
+              rows, mine);
+  send_air_rows_to_owner(s.domain, rows, mine.shown, mine.entries);
+  parts.entries.push_back(std::move(mine));
+  c.J.blocks[std::size_t(block)].loads = smooth_loads<Dim>(body.elastic().body, motion.state.u);
+}
+
+// No energy: velocities that are all prescribed store none.
+class NoPotential : public VelocityPotential {
+ public:
+  explicit NoPotential(int size) : size_(size) {}
+  double energy(const Eigen::VectorXd&) const override { return 0; }
+  void add_gradient(const Eigen::VectorXd&, Eigen::VectorXd&) const override {}
+  Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd&, HessianProjection, IndexRange) const override {
+    return {size_, size_};
+  }
+  double step_bound(const Eigen::VectorXd&, const Eigen::VectorXd&) const override { return 1; }
+
+ private:
+  int size_;
+};
+
 }  // namespace
 
 ElasticScheme elastic_scheme(const TimeSpec& time) {
@@ -253,10 +290,8 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   const ElasticSolid<Dim>& solid = body.elastic();
   const ElasticState& e = motion.state;
   const int first = c.first[std::size_t(block)];
-  const FaceShares& shares = *g.shares[std::size_t(k)];
-  const FaceWeights& face_weights = *g.face_weights[std::size_t(k)];
-  const Vec<Dim> gravity = truncate<Dim>(s.fluids.gravity.of_step(state.time, dt));
-  const Eigen::VectorXd g_nodes = gravity.replicate(e.u.size() / Dim, 1);
+  const Eigen::VectorXd g_nodes =
+      truncate<Dim>(s.fluids.gravity.of_step(state.time, dt)).replicate(e.u.size() / Dim, 1);
   hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
   const auto p = begin_step(solid.body, e, elastic_scheme(s.scene->time), horizon,
                             step_load(s.fluids.gravity, solid, state, dt, horizon));
@@ -264,21 +299,28 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
   if (body.is_thin())
     add_liquid_beside(liquid_beside(s.domain, s.fluids, g, rows, state, dt, k), g_nodes, dt, first, parts);
-  BodyEntries mine{k, first};
-  add_to_rows(spread_shares(s.domain, shares, face_weights, with_row(rows)), rows, mine);
-  send_air_rows_to_owner(s.domain, rows, 0, mine.entries);
-  mine.shown = mine.entries.size();
-  add_to_rows(body.is_thin() ? keep_to_own_side(s.domain, solid, shares, face_weights, rows)
-                             : hang_on_facets(step, e.u, gravity, mine, parts),
-              rows, mine);
-  send_air_rows_to_owner(s.domain, rows, mine.shown, mine.entries);
-  parts.entries.push_back(std::move(mine));
-  c.J.blocks[std::size_t(block)].loads = smooth_loads<Dim>(solid.body, e.u);
-  const ElasticShare<Dim> share{&solid.body, &e.u, first, held_pressure_of(step, solid, motion, shares),
-                                solid.pins.empty()};
+  hang_surface(step, k, motion, block, parts);
+  const ElasticShare<Dim> share{&solid.body, &e.u, first,
+                                held_pressure_of(step, solid, motion, *g.shares[std::size_t(k)]), solid.pins.empty()};
   parts.potentials.push_back(std::make_shared<ElasticPotential<Dim>>(std::vector{share}, c.size(),
                                                                      s.perturbation.elastic_forces * dt, horizon,
                                                                      std::make_shared<RankShare>(s.domain.ranks)));
+}
+
+// The mass stores no momentum: M v = push at the prescribed v.
+template <int Dim>
+void couple_deforming_body(const CoupledStep<Dim>& step, int k, const ElasticMotion& motion, int block,
+                           CouplingParts<Dim>& parts) {
+  SolidCoupling<Dim>& c = parts.coupling;
+  const ElasticSolid<Dim>& solid = step.setup.solids.bodies[std::size_t(k)].elastic();
+  const int first = c.first[std::size_t(block)], size = solid.body.size();
+  hold_pins(solid, motion.state.u, step.state.time + step.horizon, step.horizon, first, c);
+  const Eigen::VectorXd held = c.held.segment(first, size);
+  add_matrix(solid.body.mass, 1, first, parts.mass);
+  c.push.segment(first, size) = solid.body.mass * held;
+  c.free.segment(first, size) = held;
+  hang_surface(step, k, motion, block, parts);
+  parts.potentials.push_back(std::make_shared<NoPotential>(c.size()));
 }
 
 template <int Dim>
@@ -296,9 +338,10 @@ void set_elastic_columns(const CoupledStep<Dim>& step, int k, int block, Couplin
   c.J.blocks[b].loads = std::move(loads);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template void couple_elastic_body<D>(const CoupledStep<D>&, int, const ElasticMotion&, int, CouplingParts<D>&); \
-  template void set_elastic_columns<D>(const CoupledStep<D>&, int, int, CouplingParts<D>&);                       \
+#define SEICHE_INSTANTIATE(D)                                                                                       \
+  template void couple_elastic_body<D>(const CoupledStep<D>&, int, const ElasticMotion&, int, CouplingParts<D>&);   \
+  template void couple_deforming_body<D>(const CoupledStep<D>&, int, const ElasticMotion&, int, CouplingParts<D>&); \
+  template void set_elastic_columns<D>(const CoupledStep<D>&, int, int, CouplingParts<D>&);                         \
   template StepLoad step_load<D>(const Gravity&, const ElasticSolid<D>&, const State<D>&, double, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

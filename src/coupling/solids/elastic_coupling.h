@@ -15,6 +15,11 @@ template <int Dim>
 void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotion& motion, int block,
                          CouplingParts<Dim>& parts);
 
+// The same for body k without elements, whose nodes all have prescribed velocities.
+template <int Dim>
+void couple_deforming_body(const CoupledStep<Dim>& step, int k, const ElasticMotion& motion, int block,
+                           CouplingParts<Dim>& parts);
+
 // Sets the columns of J of body k and its cell_fluxes, once parts.entries is complete.
 template <int Dim>
 void set_elastic_columns(const CoupledStep<Dim>& step, int k, int block, CouplingParts<Dim>& parts);

@@ -266,7 +266,7 @@ ElasticMotions elastic_motions(const Participants<Dim>& solids) {
   ElasticMotions motions;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     const auto* elastic = dynamic_cast<const ElasticParticipant<Dim>*>(&solids[k]);
-    motions.push_back(elastic ? &elastic->motion() : nullptr);
+    motions.push_back(elastic && solids[k].body().is_free() ? &elastic->motion() : nullptr);
   }
   return motions;
 }

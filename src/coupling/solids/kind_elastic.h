@@ -54,15 +54,17 @@ class ElasticParticipant : public Participant<Dim> {
   std::string describe_mesh() const override;
   void visit(StateVisitor& visitor) override;
 
- private:
+ protected:
   const ElasticSolid<Dim>& elements() const { return body().elastic(); }
+
+ private:
   ElasticState as_solved(const Gravity& gravity, const TimeSpec& time, const State<Dim>& state) const;
 
   ElasticMotion motion_;
   Eigen::VectorXd pin_forces_;  // of the last solve on each unknown, N
 };
 
-// One pointer a solid; null: not elastic.
+// One pointer a solid; null: not elastic, or without elements.
 template <int Dim>
 ElasticMotions elastic_motions(const Participants<Dim>& solids);
 template <int Dim>

@@ -11,6 +11,7 @@
   ROW(kinematic_solid)          \
   ROW(rigid_solid)              \
   ROW(elastic_solid)            \
+  ROW(deforming_solid)          \
   ROW(sprung_solid)
 
 namespace seiche {

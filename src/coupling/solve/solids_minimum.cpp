@@ -136,6 +136,7 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
   r.contacts = contact.active;
   r.friction_settled = contact.friction != FrictionState::unsettled;
   r.impulses = std::move(contact.impulses);
+  r.pairs = std::move(contact.pairs);
   r.velocity = std::move(contact.velocity);
   if (coupling.potential && r.failure.empty()) r.reaction = held_part(coupling, std::move(contact.residual));
   return r;

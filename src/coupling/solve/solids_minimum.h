@@ -12,6 +12,7 @@ struct SolidsMinimum {
   int newton_iterations = 0, contacts = 0;
   bool friction_settled = true;
   std::vector<BodyImpulse> impulses;  // N s: of contact, one a solid; empty without contact
+  std::vector<PairImpulse> pairs;     // ContactReport::pairs
   std::string failure;                // empty: found
 };
 

@@ -159,6 +159,7 @@ Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Di
   r.joint_turns = coupling.joints ? coupling.joints->turns : 0;
   r.friction_settled = m.friction_settled;
   r.contact_power = contact_power(m.impulses, in);
+  r.pairs = std::move(m.pairs);
   r.reactions = m.reaction / in.liquid.dt;
   const int earlier = r.report.iterations;
   r.report = problem.report();

@@ -158,6 +158,40 @@ void visit_joint(std::size_t k, JointState& joint, StateVisitor& visitor) {
   visitor.vector(prefix + "bend", joint.bend);
 }
 
+// Eleven numbers an impulse: those of its impact come first.
+std::vector<double> packed(const Impacts& impacts) {
+  std::vector<double> all;
+  for (const Impact& impact : impacts)
+    for (const Impact::Impulse& i : impact.impulses) {
+      const double due = impact.is_due ? 1 : 0;
+      all.insert(all.end(), {double(impact.first), double(impact.second), impact.approach, impact.driven, due});
+      all.insert(all.end(), i.point.begin(), i.point.end());
+      all.insert(all.end(), i.linear.begin(), i.linear.end());
+    }
+  return all;
+}
+
+Impacts unpacked(const std::vector<double>& all) {
+  constexpr std::size_t size = 11;
+  Impacts impacts;
+  for (std::size_t n = 0; n + size <= all.size(); n += size) {
+    const double* v = all.data() + n;
+    const int first = int(v[0]), second = int(v[1]);
+    if (impacts.empty() || impacts.back().first != first || impacts.back().second != second)
+      impacts.push_back({first, second, v[2], v[3], v[4] != 0, {}});
+    impacts.back().impulses.push_back({Vec3(v[5], v[6], v[7]), Vec3(v[8], v[9], v[10])});
+  }
+  return impacts;
+}
+
+template <int Dim>
+void visit_impacts(const Solids<Dim>& solids, Impacts& impacts, FieldVisitor<Dim>& visitor) {
+  if (solids.restitutions.empty() || !visitor.has("impacts")) return;
+  std::vector<double> all = packed(impacts);
+  visitor.numbers("impacts", all);
+  if (visitor.loads()) impacts = unpacked(all);
+}
+
 void visit_work(Work& work, StateVisitor& visitor) {
   visitor.number("work.gravity", work.gravity);
   visitor.number("work.tension", work.tension);
@@ -234,6 +268,7 @@ void visit_state(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   double levels = state.earlier ? 3 : state.before ? 2 : 1;
   visitor.number("levels", levels);
   visit_numbers(s.fluids, s.solids.bodies.size(), state, visitor);
+  visit_impacts(s.solids, state.impacts, visitor);
   for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].visit(visitor);
   for (std::size_t k = 0; k < state.joints.size(); ++k) visit_joint(k, state.joints[k], visitor);
   visit_cells(s, state, visitor);

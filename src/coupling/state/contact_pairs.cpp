@@ -36,7 +36,14 @@ void for_each_contact(const Scene& scene, const Visit& visit) {
 
 }  // namespace
 
+// Deforming solids pass through all that forces do not move, as kinematic ones do.
 SharedPairs pairs_apart(const Scene& scene, SharedPairs jointed) {
+  const auto& solids = scene.solids;
+  for (int a = 0; a < int(solids.size()); ++a)
+    for (int b = a + 1; b < int(solids.size()); ++b) {
+      const SolidKind &one = solids[std::size_t(a)].kind, &other = solids[std::size_t(b)].kind;
+      if ((one.follows_meshes || other.follows_meshes) && !one.is_free() && !other.is_free()) jointed.push_back({a, b});
+    }
   for_each_contact(scene, [&](const std::array<int, 2>& pair, const ContactSpec& contact) {
     if (!contact.collide) jointed.push_back(pair);
   });
@@ -51,6 +58,14 @@ PairFrictions pair_frictions(const Scene& scene) {
     if (contact.friction) frictions[pair] = *contact.friction;
   });
   return frictions;
+}
+
+PairFrictions pair_restitutions(const Scene& scene) {
+  PairFrictions restitutions;
+  for_each_contact(scene, [&](const std::array<int, 2>& pair, const ContactSpec& contact) {
+    if (contact.restitution) restitutions[pair] = *contact.restitution;
+  });
+  return restitutions;
 }
 
 }  // namespace seiche

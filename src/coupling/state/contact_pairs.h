@@ -13,4 +13,7 @@ SharedPairs pairs_apart(const Scene& scene, SharedPairs jointed);
 // Friction of pairs that has a coefficient of its own. The last entry that fits a pair counts.
 PairFrictions pair_frictions(const Scene& scene);
 
+// Restitution of pairs that have a coefficient, likewise.
+PairFrictions pair_restitutions(const Scene& scene);
+
 }  // namespace seiche

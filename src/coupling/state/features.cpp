@@ -36,7 +36,7 @@ bool has_kinematic(const Solids<Dim>& solids) {
 
 template <int Dim>
 bool has_elements(const Solids<Dim>& solids) {
-  return any_body<Dim>(solids, [](const Body<Dim>& b) { return b.deforms(); });
+  return any_body<Dim>(solids, [](const Body<Dim>& b) { return b.kind().has_elements; });
 }
 
 bool is_second_order(const Fluids& fluids, const TimeSpec& time) {
@@ -104,8 +104,8 @@ const std::vector<Exclusion<Dim>>& exclusions() {
       {F::leapfrog, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
       {F::leapfrog, "enclosed air that keeps its volume", [](S s) { return s.fluids.keeps_air(); }},
       {F::leapfrog, "rigid beside kinematic solids",
-       [](S s) { return s.solids.has_unknowns() && !has_elements(s.solids) && has_kinematic(s.solids); }},
-      {F::leapfrog, "elastic solids", [](S s) { return s.solids.plans_steps(); }},
+       [](S s) { return s.solids.has_unknowns() && !s.solids.plans_steps() && has_kinematic(s.solids); }},
+      {F::leapfrog, "solids that deform", [](S s) { return s.solids.plans_steps(); }},
       {F::leapfrog, "solids thinner than a cell",
        [](S s) { return any_body<Dim>(s.solids, [](B b) { return b.is_thin(); }); }},
       {F::shared_viscosity, "scheme = \"first_order\"",

@@ -3,6 +3,7 @@
 #include "coupling/state/exterior.h"
 #include "coupling/state/flow.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/impact.h"
 #include "coupling/state/joint_state.h"
 #include "coupling/state/participant.h"
 #include "fluid/boundary/domain.h"
@@ -41,6 +42,7 @@ struct State : Flow<Dim> {
   double spilled_volume = 0;    // of `liquid`, handed to neighbouring cells so far, m^Dim
   Participants<Dim> solids;
   std::vector<JointState> joints;
+  Impacts impacts;         // of solids with restitution, under way
   double since_solve = 0;  // time from the geometry of the last solve to this state, s: half a leapfrog step, or 0
   std::shared_ptr<const State> trial = {};  // after a trial of the first step, for the step itself; else null
   bool looks_ahead = false;                 // for a trial that leaves solids where they begin (look_ahead.h)

@@ -153,6 +153,7 @@ Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const std::ve
                     const OperatorPerturbation& perturbation, std::vector<std::string>& notes)
     : bodies(make_bodies<Dim>(scene, notes)),
       joints(scene, bodies),
+      restitutions(pair_restitutions(scene)),
       apart(pairs_apart(scene, joints.pairs_apart())),
       geometry(domain.layout, domain.sides, bodies, apart),
       at_start(make_participants(bodies)),

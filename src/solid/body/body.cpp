@@ -1,6 +1,10 @@
 #include "solid/body/body.h"
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "geometry/shapes/closed_surface.h"
+#include "solid/body/deforming.h"
 #include "solid/body/thin_surface.h"
 #include "solid/body/thinness.h"
 
@@ -70,6 +74,10 @@ Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Di
     make_elastic(options, lower, upper);
     return;
   }
+  if (spec.kind.follows_meshes) {
+    make_deforming(options, lower, upper);
+    return;
+  }
   shape_ = make_shape<Dim>(spec.shape, options);
   surface_ = seiche::contact_surface<Dim>(spec.shape, options, lower, upper);
   if (spec.kind.is_free()) {
@@ -104,6 +112,21 @@ void Body<Dim>::make_elastic(const ShapeOptions& options, const Vec<Dim>& lower,
   mass_.center /= mass_.mass;
   mass_.volume = mass_.mass / spec_.rigid.density;
   reference_ = mass_.center;
+}
+
+// The reference point is the centroid of the first mesh.
+template <int Dim>
+void Body<Dim>::make_deforming(const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  elastic_ = std::make_unique<ElasticSolid<Dim>>(make_deforming_solid<Dim>(spec_, options));
+  surface_ = elastic_->surface.facets;
+  mass_.center = reference_ = mass_of_surface<Dim>(surface_, 1).center;
+  shape_ = make_shape<Dim>(spec_.shape, {options.cell_size, nullptr});
+  if (is_thinner_than(*this, options.cell_size, lower, upper))
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: solid '{}' is thinner than a cell of {:g} m, through which a deforming solid cannot "
+                            "be seen; give its meshes thickness, or take smaller cells",
+                            spec_.shape.where, spec_.name, options.cell_size));
+  shape_.reset();
 }
 
 template <int Dim>

@@ -1,5 +1,5 @@
 #pragma once
-// A solid of a scene: static, prescribed, or moved by forces (rigid or elastic).
+// A solid of a scene: static, prescribed (rigid or deforming), or moved by forces (rigid or elastic).
 #include <memory>
 #include <optional>
 
@@ -43,7 +43,7 @@ class Body {
   bool is_free() const { return spec_.kind.is_free(); }            // forces move it: it has mass and unknowns
   bool deforms() const { return elastic_ != nullptr; }             // its surface follows nodes, not a pose
   const ElasticSolid<Dim>& elastic() const { return *elastic_; }   // of a solid that deforms only
-  const MassProperties& mass() const { return mass_; }             // at rest; zero unless forces move it
+  const MassProperties& mass() const { return mass_; }             // at rest; no mass unless forces move it
   const SurfaceMesh& contact_surface() const { return surface_; }  // in the rest pose
   // Volume of a sphere, cylinder or capsule, or of a solid that forces move, over that within its surface, whose facets
   // cut a little off round shapes. 1 for others.
@@ -74,6 +74,7 @@ class Body {
     Vec3 axis, center;
   };
   void make_elastic(const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper);
+  void make_deforming(const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper);
 
   SolidSpec spec_;
   std::unique_ptr<ShapeField<Dim>> shape_;

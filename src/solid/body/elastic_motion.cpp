@@ -5,6 +5,12 @@
 namespace seiche {
 
 template <int Dim>
+Eigen::VectorXd places_in_sequence(const ElasticSolid<Dim>& solid, double t) {
+  const Pins pins = pins_at(solid, t);
+  return Eigen::Map<const Eigen::VectorXd>(pins.targets.data(), Eigen::Index(pins.targets.size()));
+}
+
+template <int Dim>
 ElasticMotion initial_elastic_motion(const Body<Dim>& body) {
   ElasticMotion m;
   const ElasticSolid<Dim>& solid = body.elastic();
@@ -16,6 +22,12 @@ ElasticMotion initial_elastic_motion(const Body<Dim>& body) {
         truncate<Dim>(Vec3(spec.velocity + spec.angular_velocity.cross(arm)));
   }
   for (const int dof : pins_at(solid, 0).dofs) m.state.v[dof] = 0;
+  if (solid.sequence) {
+    constexpr double soon = 1e-6;  // of the time between two meshes
+    const double span = soon / body.spec().sequence.rate;
+    m.state.u = m.state.u_old = places_in_sequence(solid, 0);
+    m.state.v = m.state.v_old = (places_in_sequence(solid, span) - m.state.u) / span;
+  }
   m.velocity = m.state.v;
   m.kept_volume.setConstant(Eigen::Index(solid.patches.size()), std::numeric_limits<double>::quiet_NaN());
   m.cavity = m.kept_volume;
@@ -89,6 +101,7 @@ BodyAverage average(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, cons
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                          \
+  template Eigen::VectorXd places_in_sequence<D>(const ElasticSolid<D>&, double);                      \
   template ElasticMotion initial_elastic_motion<D>(const Body<D>&);                                    \
   template void advance<D>(const ElasticBody<D>&, ElasticScheme, double, const StepLoad&, const Pins&, \
                            ElasticMotion&);                                                            \

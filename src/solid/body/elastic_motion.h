@@ -18,9 +18,13 @@ struct ElasticMotion {
 
 using ElasticMotions = std::vector<const ElasticMotion*>;  // one a solid; null: not elastic
 
-// The rest shape with the scene's initial velocities.
+// The rest shape with the scene's initial velocities, or a sequence of meshes at t = 0.
 template <int Dim>
 ElasticMotion initial_elastic_motion(const Body<Dim>& body);
+
+// Displacements (m) of all nodes of a solid that follows meshes, at time t (s).
+template <int Dim>
+Eigen::VectorXd places_in_sequence(const ElasticSolid<Dim>& solid, double t);
 
 // Moves to u + dt w and sets the velocity by the time scheme. `load` is the load of the solve that gave w; `pins` are
 // those at the end of the step.

@@ -62,6 +62,12 @@ struct BodyImpulse {
   Vec3 linear{0, 0, 0}, angular{0, 0, 0};  // N s; N m s about the centre of mass (prescribed body: about its pivot)
 };
 
+// Normal impulse of contact at one place. The other body gets the opposite.
+struct PairImpulse {
+  int first, second;   // bodies; second below 0: wall -1 - second
+  Vec3 point, linear;  // m; N s on the first body
+};
+
 enum class FrictionState { none, settled, unsettled };
 
 struct ContactReport {
@@ -78,6 +84,7 @@ struct ContactReport {
   double straight_share = 1;
   FrictionState friction = FrictionState::none;
   std::vector<BodyImpulse> impulses;  // from contact, one a body
+  std::vector<PairImpulse> pairs;     // of pairs of bodies that do not deform, or of such a body and a wall
 };
 
 // Bodies and walls prepared for any number of solves. Copies share the prepared data.

@@ -184,12 +184,13 @@ class Search {
                   [&](Candidate& c) { c.apart_at_rest = separate<Dim>(c.kind, at_rest(c)).distance; });
   }
 
-  // True if all points of one side are pinned and the other body is prescribed.
+  // True if all points of one side are pinned and the other body is prescribed or pinned likewise.
   bool stands_pinned(const Candidate& c) const {
     const bool wall = c.kind == PairKind::point_wall, other_prescribed = wall || !scene_.moves(c.second);
-    if (!other_prescribed && scene_.moves(c.first)) return false;
     const int count = points_of(c.kind, Dim), first = points_of_first(c.kind);
     const auto pinned = [&](int p) { return scene_.pinned[std::size_t(p)] != 0; };
+    if (!other_prescribed && scene_.moves(c.first))
+      return std::all_of(c.points.begin(), c.points.begin() + count, pinned);
     return other_prescribed ? std::all_of(c.points.begin(), c.points.begin() + first, pinned)
                             : std::all_of(c.points.begin() + first, c.points.begin() + count, pinned);
   }

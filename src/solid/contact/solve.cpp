@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solid/contact/friction_updates.h"
+#include "solid/contact/pair_impulses.h"
 #include "solid/contact/path.h"
 
 namespace seiche {
@@ -356,6 +357,7 @@ class Solver {
     report_.smallest_gap = terms_.smallest_gap;
     report_.stiffness = weights_.stiffness;
     report_.impulses = contact_impulses<Dim>(scene_, at_, pairs_, friction, weights_);
+    report_.pairs = pair_impulses<Dim>(scene_, at_, pairs_, weights_);
   }
 
   const Scene<Dim>& scene_;

@@ -149,9 +149,26 @@ ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& 
   return r;
 }
 
+namespace {
+
+template <int Dim>
+Pins pins_of_sequence(const ElasticSolid<Dim>& solid, double t) {
+  const std::vector<Vec3> points = solid.sequence->points_at(t);
+  Pins pins;
+  for (std::size_t n = 0; n < points.size(); ++n)
+    for (int axis = 0; axis < Dim; ++axis) {
+      pins.dofs.push_back(Dim * int(n) + axis);
+      pins.targets.push_back(points[n][axis] - solid.body.mesh.nodes[n][axis]);
+    }
+  return pins;
+}
+
+}  // namespace
+
 // u = R(t) (X - c) + c + T(t) - X
 template <int Dim>
 Pins pins_at(const ElasticSolid<Dim>& solid, double t) {
+  if (solid.sequence) return pins_of_sequence(solid, t);
   std::vector<std::pair<int, Vec<Dim>>> held;
   for (const PinnedNodes& pin : solid.pins) {
     const double angle = Expression(pin.motion.degrees)(Vec3::Zero(), t) * std::numbers::pi / 180;

@@ -1,6 +1,7 @@
 #pragma once
 // An elastic solid of a scene: finite elements, surface, pins and loads.
 #include "base/solid_spec.h"
+#include "geometry/shapes/mesh_sequence.h"
 #include "geometry/shapes/shapes.h"
 #include "solid/elastic/body.h"
 #include "solid/elastic/minimize.h"
@@ -43,6 +44,7 @@ struct ElasticSolid {
   std::vector<SurfacePatch<Dim>> patches;  // if pinned facets divide a part: its pieces without those facets
   VectorFormula body_force;                // N/m^3
   std::vector<LoadedSides> tractions;
+  std::shared_ptr<const MeshSequence> sequence;  // prescribes all nodes of a solid without elements; null: none
 };
 
 // Meshes the solid's shape at its element size, or reads its mesh, and finds the pinned nodes. [lower, upper] is the

@@ -6,7 +6,8 @@
 
 namespace seiche {
 
-// Triangles or tetrahedra with nodal fields. Empty for solids that are not elastic.
+// Triangles or tetrahedra with nodal fields. Without elements for deforming solids, empty for others that are not
+// elastic.
 struct VolumeFrame {
   int dimension = 3, order = 1;
   std::vector<Vec3> rest, displacement, velocity;  // of the nodes: m, m, m/s

@@ -7,6 +7,7 @@
 
 #include "base/crc32c.h"
 #include "base/error.h"
+#include "base/numbered_files.h"
 #include "base/scene.h"
 #include "base/shape_spec.h"
 #include "base/version.h"
@@ -103,6 +104,9 @@ std::string checksums_of_files(const Scene& scene) {
   for_each_shape(scene, [&](const ShapeSpec& shape) {
     if (!shape.file.empty()) text += fmt::format("file {}\n", checksum_of(shape.file));
   });
+  for (const SolidSpec& solid : scene.solids)
+    for (const fs::path& file : numbered_files(solid.shape.file, solid.sequence.meshes))
+      text += fmt::format("file {}\n", checksum_of(file));
   return text;
 }
 

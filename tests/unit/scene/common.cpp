@@ -55,7 +55,7 @@ std::string feed_text(const std::string& placed, const std::string& begin, const
 
 // A contact pair and a force.
 std::string force_text(const std::string& acceleration) {
-  return "[[contact]]\nbetween = [\"still\", \"so?t\"]\nfriction = 0.2\ncollide = true\n"
+  return "[[contact]]\nbetween = [\"still\", \"so?t\"]\nfriction = 0.2\nrestitution = 0\ncollide = true\n"
          "[[force]]\nname = \"pull\"\nkind = \"acceleration\"\nacts_on = \"all\"\nsolids = [\"s*\"]\nacceleration = " +
          acceleration + "\n";
 }

@@ -58,10 +58,22 @@ TEST_CASE("contacts name solids that are there, and say something") {
   CHECK(s.contacts[0].friction == 0.4);
   CHECK(write_scene(parse(write_scene(s))) == write_scene(s));
   check_refused(contact("between = [\"crat\"]\nfriction = 0.4\n"), "did you mean \"crate\"?");
-  check_refused(contact("between = [\"crate\"]\n"), "give friction, or collide = false");
+  check_refused(contact("between = [\"crate\"]\n"), "give friction, restitution, or collide = false");
   check_refused(contact("between = [\"crate\", \"domain\"]\ncollide = false\n"),
                 "cannot pass through the domain's sides");
   check_refused(contact("between = [\"crate\"]\ncollide = false\nfriction = 1\n"), "have no friction");
+}
+
+TEST_CASE("restitution is for pairs that collide and do not deform") {
+  const Scene s = parse(contact("between = [\"crate\", \"domain\"]\nrestitution = 0.5\n"));
+  CHECK(s.contacts[0].restitution == 0.5);
+  CHECK(write_scene(parse(write_scene(s))) == write_scene(s));
+  check_refused(contact("between = [\"crate\", \"domain\"]\nrestitution = 1.1\n"), "contact.0.restitution");
+  check_refused(contact("between = [\"crate\"]\ncollide = false\nrestitution = 0.5\n"), "have no restitution");
+  const std::string bob =
+      "[[solid]]\nname = \"bob\"\nkind = \"sprung\"\nshape = \"sphere\"\ncenter = [0.5, 0.5, 0.5]\nradius = 0.1\n"
+      "density = 700\nspring_stiffness = 50\n";
+  check_refused(contact("between = [\"*\"]\nrestitution = 0.5\n") + bob, "\"bob\" is sprung; restitution is for");
 }
 
 }  // namespace force_keys_tests

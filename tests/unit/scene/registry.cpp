@@ -35,6 +35,7 @@ std::string concrete_path(const Option& option) {
   if (is_inside || kinds == std::vector<std::string>{"elastic"}) path.replace(0, 7, "solid.3");
   if (kinds == std::vector<std::string>{"sprung"}) path.replace(0, 7, "solid.4");
   if (path.rfind("solid[].motion", 0) == 0) path.replace(0, 7, "solid.1");
+  if (path.rfind("solid[].sequence", 0) == 0) path.replace(0, 7, "solid.5");
   const auto is_in = [&](const char* key) { return path.rfind(std::string("joint[].") + key, 0) == 0; };
   if (is_in("drive")) path.replace(0, 7, "joint.1");
   if (is_in("second_axis")) path.replace(0, 7, "joint.2");
@@ -72,6 +73,10 @@ std::string scene_for(const Option& option) {
         "[[robot]]\nfile = \"arm.urdf\"\nrotate = { axis = [0, 0, 1], degrees = 30 }\n[[robot.joint]]\nname = \"j\"\n"
         "spring = { stiffness = 1 }\nmotor = { target = \"t\", stiffness = 1 }\ndrive = { degrees = \"t\" }\n"
         "breaks_at = { force = 1 }\n";
+  if (option.path.rfind("solid[].sequence", 0) == 0)
+    text +=
+        "[[solid]]\nkind = \"deforming\"\nshape = \"mesh\"\nfile = \"wing.01.obj\"\n"
+        "sequence = { meshes = 3, rate = 2, start = 0.5, loop = true }\n";
   const std::string plain = "viscosity = \"1+x\"";
   if (option.path.rfind("liquid.rheology.", 0) == 0)
     text.replace(text.find(plain), plain.size(),

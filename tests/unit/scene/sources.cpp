@@ -57,7 +57,7 @@ TEST_CASE("sources are attached to solids that are there and do not deform") {
   check_refused(opening("source", "attached_to = \"amr\"") + arm, "no solid is named \"amr\"; did you mean \"arm\"?");
   check_refused(opening("drain", "attached_to = \"x\""), "liquid.drain.0.attached_to: no solid is named \"x\"");
   check_refused(opening("source", "attached_to = \"gate\"") + arm + gate,
-                "\"gate\" is an elastic solid, which deforms; there is \"arm\"");
+                "\"gate\" is a solid that deforms; there is \"arm\"");
   check_refused(opening("source", "attached_to = \"arm\"\nmotion = { translate = [\"t\", 0, 0] }") + arm, "not both");
   check_refused(opening("source", "motion = { translate = [\"t < 0.5 ? 0 : 100\", 0, 0] }"),
                 "liquid.source.0: the motion jumps");

@@ -1,0 +1,92 @@
+#include "geometry/shapes/mesh_sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/numbered_files.h"
+#include "base/solid_spec.h"
+#include "geometry/shapes/makers.h"
+
+namespace seiche {
+namespace {
+
+using Triangle = std::array<int, 3>;
+
+bool same_corners(Triangle a, Triangle b) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
+}
+
+// Reason why a mesh cannot follow the first, or empty.
+std::string fault_of_topology(const SurfaceMesh& first, const SurfaceMesh& mesh) {
+  if (mesh.points.size() != first.points.size() || mesh.triangles.size() != first.triangles.size())
+    return fmt::format("has {} points and {} triangles, the first {} and {}", mesh.points.size(), mesh.triangles.size(),
+                       first.points.size(), first.triangles.size());
+  const auto [at, there] = std::mismatch(mesh.triangles.begin(), mesh.triangles.end(), first.triangles.begin());
+  if (at == mesh.triangles.end()) return {};
+  if (same_corners(*at, *there)) return "is turned inside out";
+  return fmt::format("joins other points in triangle {} than the first", at - mesh.triangles.begin());
+}
+
+// Cubic with the values a, b and the slopes p, q at s = 0 and 1.
+Vec3 hermite(const Vec3& a, const Vec3& p, const Vec3& b, const Vec3& q, double s) {
+  const double r = 1 - s;
+  return r * r * ((1 + 2 * s) * a + s * p) + s * s * ((1 + 2 * r) * b - r * q);
+}
+
+}  // namespace
+
+MeshSequence::MeshSequence(const ShapeSpec& shape, const SequenceSpec& spec, const ShapeOptions& options)
+    : rate_(spec.rate), start_(spec.start), loops_(spec.loop) {
+  ShapeSpec one = shape;
+  for (const std::filesystem::path& file : numbered_files(shape.file, spec.meshes)) {
+    one.file = file;
+    SurfaceMesh mesh;
+    try {
+      mesh = shape::read_shape_mesh(one, options);
+    } catch (const Error& e) {
+      throw Error(e.code(), shape.where + ": " + e.what());
+    }
+    if (points_.empty()) first_ = mesh;
+    const std::string fault = fault_of_topology(first_, mesh);
+    if (!fault.empty())
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: {} {}; all meshes of a sequence must join the same points in the same order",
+                              shape.where, file.string(), fault));
+    points_.push_back(std::move(mesh.points));
+  }
+}
+
+// Without a loop the sequence goes back at its ends, where the slopes are zero then.
+int MeshSequence::index(int k) const {
+  const int n = count(), period = loops_ ? n : 2 * (n - 1), at = (k % period + period) % period;
+  return at < n ? at : period - at;
+}
+
+// Slope per mesh of the cubic spline through the points: 3 sum_j -(-a)^j (x_k+j - x_k-j), a = 2 - sqrt(3).
+Vec3 MeshSequence::slope(int k, std::size_t point) const {
+  constexpr int reach = 24;  // a^24 = 2e-14
+  const double a = 2 - std::sqrt(3.0);
+  Vec3 sum = Vec3::Zero();
+  double weight = 3 * a;
+  for (int j = 1; j <= reach; ++j, weight *= -a)
+    sum += weight * (points_[std::size_t(index(k + j))][point] - points_[std::size_t(index(k - j))][point]);
+  return sum;
+}
+
+std::vector<Vec3> MeshSequence::points_at(double t) const {
+  double s = (t - start_) * rate_;
+  s = loops_ ? std::fmod(s, count()) : std::clamp(s, 0.0, double(count() - 1));
+  const int k = int(std::floor(s));
+  const auto &a = points_[std::size_t(index(k))], &b = points_[std::size_t(index(k + 1))];
+  std::vector<Vec3> points;
+  points.reserve(a.size());
+  for (std::size_t p = 0; p < a.size(); ++p) points.push_back(hermite(a[p], slope(k, p), b[p], slope(k + 1, p), s - k));
+  return points;
+}
+
+}  // namespace seiche

@@ -1,0 +1,35 @@
+#pragma once
+// Meshes of one topology that follow each other in time.
+#include <vector>
+
+#include "base/shape_spec.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/shapes.h"
+
+namespace seiche {
+
+struct SequenceSpec;
+
+class MeshSequence {
+ public:
+  // Reads and checks all meshes, transformed as the shape. Throws Error(bad_input) naming shape.where and the file:
+  // it is no closed mesh, or has other triangles than the first.
+  MeshSequence(const ShapeSpec& shape, const SequenceSpec& spec, const ShapeOptions& options);
+
+  const SurfaceMesh& first() const { return first_; }
+  int count() const { return int(points_.size()); }
+  // Places of the points at time t, m: a cubic in time between two meshes, with the slopes of their neighbours (Catmull
+  // and Rom 1974). Velocities have no jumps. Without a loop the points rest before the first mesh and after the last.
+  std::vector<Vec3> points_at(double t) const;
+
+ private:
+  int index(int k) const;
+  Vec3 slope(int k, std::size_t point) const;
+
+  SurfaceMesh first_;
+  std::vector<std::vector<Vec3>> points_;  // of each mesh, m
+  double rate_, start_;
+  bool loops_;
+};
+
+}  // namespace seiche

@@ -1,0 +1,12 @@
+#pragma once
+// Normal impulses of single pairs, for restitution.
+#include "solid/contact/system.h"
+
+namespace seiche::contact {
+
+// Those of bodies that do not deform, of each pair of primitives within reach.
+template <int Dim>
+std::vector<PairImpulse> pair_impulses(const Scene<Dim>& scene, const Placement<Dim>& at,
+                                       const std::vector<Candidate>& pairs, const Weights& weights);
+
+}  // namespace seiche::contact

@@ -1,0 +1,172 @@
+// Solids that take on a sequence of meshes, against exact volumes and the same motion of a kinematic solid.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "base/error.h"
+#include "coupling/solids/solid_kinds.h"
+#include "geometry/shapes/closed_surface.h"
+#include "rigid_scenes.h"
+#include "solid/body/mass_properties.h"
+#include "volume_scenes.h"
+
+namespace deforming_tests {
+using namespace seiche;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Files of a sequence, removed at the end.
+class Meshes {
+ public:
+  Meshes() : folder_(fs::temp_directory_path() / fmt::format("seiche_deforming_{}", std::random_device()())) {
+    fs::create_directory(folder_);
+  }
+  ~Meshes() { fs::remove_all(folder_); }
+  Meshes(const Meshes&) = delete;
+  fs::path first() const { return folder_ / "body.00.obj"; }
+
+  void add(const SurfaceMesh& mesh) {
+    std::ofstream file(folder_ / fmt::format("body.{:02}.obj", count_++));
+    for (const Vec3& p : mesh.points) file << fmt::format("v {:.17g} {:.17g} {:.17g}\n", p[0], p[1], p[2]);
+    for (const auto& t : mesh.triangles) file << fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  }
+  int count() const { return count_; }
+
+ private:
+  fs::path folder_;
+  int count_ = 0;
+};
+
+// A ball with the facets that a kinematic one of the same shape would have.
+SurfaceMesh ball_mesh(const Vec3& center, double radius) {
+  const SolidSpec ball = test::rigid_ball("", 1, {0, 0, 0}, 1);
+  SurfaceMesh mesh = contact_surface<3>(ball.shape, {0.25, nullptr}, Vec3::Zero(), Vec3::Ones());
+  for (Vec3& p : mesh.points) p = center + radius * p;
+  return mesh;
+}
+
+SolidSpec deforming(const Meshes& meshes, double rate, bool loop) {
+  SolidSpec s;
+  s.name = "body";
+  for (const SolidKindRow& row : solid_kinds())
+    if (row.kind.follows_meshes) s.kind = row.kind;
+  s.shape.kind = "mesh";
+  s.shape.file = meshes.first();
+  s.shape.where = "test";
+  s.sequence = {meshes.count(), rate, 0, loop};
+  return s;
+}
+
+// A ball that grows from 0.15 m to 0.22 m in half a second.
+void add_growing_ball(const Vec3& center, Meshes& meshes) {
+  for (int k = 0; k <= 10; ++k) meshes.add(ball_mesh(center, 0.15 + 0.035 * (1 - std::cos(test::pi * k / 10))));
+}
+
+double volume_of(const SurfaceMesh& surface) {
+  return mass_of_surface<3>(surface, 1).volume;
+}
+
+// Volume below the level set, solids included, m^3.
+double volume_below(const Simulation& sim, double h) {
+  const FrameField f = sim.frame_field("surface");
+  double sum = 0;
+  for (const float phi : f.values) sum += std::clamp(0.5 - phi / h, 0.0, 1.0);
+  return sum * h * h * h;
+}
+
+}  // namespace
+
+// The liquid keeps its volume to rounding. The grid sees balls of few cells too small, by the square of their curvature
+// in cells, and the level rises by what it sees.
+TEST_CASE("a ball that grows lifts the water by its volume", "[deforming][long]") {
+  const double small = volume_of(ball_mesh({0, 0, 0}, 0.15)), large = volume_of(ball_mesh({0, 0, 0}, 0.22));
+  const double exact = 0.6 + large - small;
+  double coarse = 0;
+  for (const int cells : {12, 24}) {
+    Meshes meshes;
+    add_growing_ball({0.5, 0.3, 0.5}, meshes);
+    Scene s = test::kept_in_cells(3, cells, "1");
+    s.liquid.regions.clear();
+    test::add_pool(s, 0.6);
+    s.solids = {deforming(meshes, 20, false)};
+    const auto sim = test::run_keeping_volume(s, 0.5);
+    CHECK(volume_of(sim->solid_surface(0)) == Approx(large).epsilon(1e-12));
+    const double level = volume_below(*sim, 1.0 / cells), error = std::abs(level - exact) / (large - small);
+    WARN(cells << " cells: level " << level << " m, exact " << exact << " m, off by " << error << " of the rise");
+    if (cells == 24) CHECK(error < 0.5 * coarse);
+    coarse = error;
+  }
+}
+
+TEST_CASE("a ball cannot grow in a closed box full of water", "[deforming]") {
+  Meshes meshes;
+  add_growing_ball({0.5, 0.5, 0.5}, meshes);
+  Scene s = test::box_scene(3, 8);
+  test::add_liquid(s, "-1");
+  s.solids = {deforming(meshes, 20, false)};
+  const auto sim = make_simulation(s, Communicator());
+  CHECK_THROWS_WITH(sim->step(0.5), Catch::Matchers::Contains("prescribed volume change"));
+}
+
+// Amplitude (N) and lead (s) of the load on a ball that swings as 0.05 m (1 - cos(2 pi t)), by its first harmonic.
+std::array<double, 2> first_harmonic(const Scene& s) {
+  const auto sim = make_simulation(s, Communicator());
+  double along = 0, across = 0;
+  const int steps = int(std::lround(1 / *s.time.fixed_step));
+  for (int n = 1; n <= steps; ++n) {
+    (void)sim->step(1);
+    const double load = sim->solids()[0].force[0], angle = 2 * test::pi * sim->time();
+    along -= 2 * load * std::cos(angle) / steps;
+    across += 2 * load * std::sin(angle) / steps;
+  }
+  return {std::hypot(along, across), std::atan2(across, along) / (2 * test::pi)};
+}
+
+// Loads of kinematic solids are those of a step before, those of nodes with prescribed motion of the coming step.
+TEST_CASE("a sequence that moves rigidly pushes water as a kinematic solid does", "[deforming][long]") {
+  double coarse = 0;
+  for (const int cells : {12, 24}) {
+    Meshes meshes;
+    for (int k = 0; k < 20; ++k)
+      meshes.add(ball_mesh({0.45 + 0.05 * (1 - std::cos(2 * test::pi * k / 20)), 0.5, 0.5}, 0.2));
+    Scene s = test::box_scene(3, cells);
+    test::add_liquid(s, "-1");
+    s.time.fixed_step = 0.01;
+    Scene same = s;
+    s.solids = {deforming(meshes, 20, true)};
+    same.solids = {test::rigid_ball("ball", 0.2, {0.45, 0.5, 0.5}, 1)};
+    same.solids[0].kind = SolidKind::kinematic;
+    same.solids[0].motion.translate = {"0.05*(1-cos(2*pi*t))", "0", "0"};
+    const auto [one, lead] = first_harmonic(s);
+    const auto [two, other_lead] = first_harmonic(same);
+    const double difference = std::abs(one / two - 1);
+    WARN(cells << " cells: amplitudes " << one << " and " << two << " N, leads " << lead << " and " << other_lead
+               << " s, amplitudes differ by " << difference);
+    if (cells == 24) CHECK(difference < std::max(0.02, 0.5 * coarse));
+    CHECK(std::abs(lead - other_lead) < 0.02);
+    coarse = difference;
+  }
+}
+
+// A ball that grows to one side pushes a rigid one on.
+TEST_CASE("a solid that grows pushes a rigid one away", "[deforming]") {
+  Meshes meshes;
+  for (const double reach : {0.0, 0.0, 0.02, 0.06, 0.1, 0.12, 0.12}) {
+    SurfaceMesh block = ball_mesh({0.3, 0.5, 0.5}, 0.15);
+    for (Vec3& p : block.points) p[0] += reach * (p[0] > 0.3 ? 1 : 0);
+    meshes.add(block);
+  }
+  Scene s = test::box_scene(3, 16);
+  s.solids = {deforming(meshes, 20, false), test::rigid_ball("ball", 0.1, {0.6, 0.5, 0.5}, 1000)};
+  const auto sim = make_simulation(s, Communicator());
+  while (sim->time() < 0.4) (void)sim->step(0.4);
+  const SolidState ball = sim->solids()[1];
+  WARN("pushed to " << ball.position[0] << " m, " << ball.velocity[0] << " m/s");
+  CHECK(ball.position[0] > 0.3 + 0.15 + 0.12 + 0.1 - 1e-3);
+  CHECK(ball.velocity[0] > 0);
+  CHECK(std::abs(ball.velocity[1]) < 0.1 * ball.velocity[0]);  // 0.04: the facets do not face it squarely
+}
+
+}  // namespace deforming_tests

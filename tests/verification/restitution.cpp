@@ -1,0 +1,102 @@
+// Rigid solids that bounce.
+#include <catch2/catch.hpp>
+
+#include "rigid_scenes.h"
+
+namespace restitution_tests {
+using namespace seiche;
+
+namespace {
+
+constexpr double g = 9.81;
+
+void set_restitution(Scene& s, double e, const std::vector<std::string>& between = {"*", "domain"}) {
+  ContactSpec contact;
+  contact.between = between;
+  contact.restitution = e;
+  s.contacts.push_back(contact);
+}
+
+// A ball that falls by a metre onto the floor, dry.
+Scene falling_ball(int dim, double e) {
+  Scene s = test::box_scene(dim, 64, 1.28);
+  s.gravity = {0, -g, 0};
+  s.solids = {test::rigid_ball("ball", 0.1, {0.64, 1.1, 0}, 1000)};
+  if (dim == 3) {
+    s.domain.cells = {16, 64, 16};
+    s.domain.upper = {0.32, 1.28, 0.32};
+    s.solids[0].shape.center = {0.16, 1.1, 0.16};
+  }
+  set_restitution(s, e);
+  return s;
+}
+
+// The coefficient by the height of the first rebound. Below 2 mm the ball lies on the floor, where contact holds it off
+// by half a millimetre.
+double coefficient_of(const Scene& s) {
+  const auto sim = make_simulation(s, Communicator());
+  double peak = 0;
+  bool has_fallen = false;
+  while (sim->time() < 0.9) {
+    (void)sim->step(0.9);
+    const SolidState ball = sim->solids()[0];
+    const double above = ball.position[1] - 0.1;
+    has_fallen = has_fallen || above < 0.01;
+    if (has_fallen && above > 0.002) peak = std::max(peak, above);
+  }
+  return std::sqrt(peak);  // the ball fell by 1 m
+}
+
+}  // namespace
+
+// Off by at most g dt over the speed of the impact, of first order.
+TEST_CASE("a ball rebounds with Newton's coefficient", "[restitution]") {
+  for (const int dim : {2, 3})
+    for (const double e : {0.0, 0.5, 0.9, 1.0}) {
+      const double found = coefficient_of(falling_ball(dim, e));
+      WARN(dim << "D: restitution " << found << ", asked for " << e);
+      CHECK(found == Approx(e).margin(0.02));
+      CHECK(found < 1);  // no energy comes from nowhere
+    }
+}
+
+// Two discs meet head-on, the second at rest: v1 = (m1 - e m2) v/(m1 + m2), v2 = (1 + e) m1 v/(m1 + m2).
+TEST_CASE("two balls that meet keep momentum and rebound", "[restitution]") {
+  for (const int dim : {2, 3}) {
+    Scene s = test::box_scene(dim, 16);
+    const double z = dim == 3 ? 0.5 : 0, e = 0.7, speed = 1, m1 = 2000, m2 = 500;
+    s.solids = {test::rigid_ball("one", 0.1, {0.3, 0.5, z}, m1), test::rigid_ball("two", 0.1, {0.55, 0.5, z}, m2)};
+    s.solids[0].rigid.velocity = {speed, 0, 0};
+    set_restitution(s, e, {"one", "two"});
+    const auto sim = make_simulation(s, Communicator());
+    while (sim->time() < 0.15) (void)sim->step(0.15);
+    const double one = sim->solids()[0].velocity[0], two = sim->solids()[1].velocity[0];
+    WARN(dim << "D: " << one << " and " << two << " m/s");
+    CHECK(m1 * one + m2 * two == Approx(m1 * speed).epsilon(1e-9));
+    CHECK(two - one == Approx(e * speed).epsilon(0.02));
+  }
+}
+
+TEST_CASE("a stack of boxes with restitution comes to rest", "[restitution]") {
+  Scene s = test::box_scene(2, 32);
+  s.gravity = {0, -g, 0};
+  for (int k = 0; k < 4; ++k)
+    s.solids.push_back(test::rigid_box(fmt::format("box{}", k), {0.2, 0.1, 0}, {0.5, 0.08 + 0.13 * k, 0}, 1000));
+  set_restitution(s, 0.5, {"*"});
+  set_restitution(s, 0.5);
+  const auto sim = make_simulation(s, Communicator());
+  double first = 0, highest = 0;
+  while (sim->time() < 2) {
+    const StepStats stats = sim->step(2);
+    const double energy = stats.kinetic_energy + stats.potential_energy;
+    if (first == 0) first = energy;
+    highest = std::max(highest, energy);
+  }
+  double fastest = 0;
+  for (const SolidState& box : sim->solids()) fastest = std::max(fastest, box.velocity.norm());
+  WARN("fastest box " << fastest << " m/s, energy at most " << highest / first << " of that at the start");
+  CHECK(fastest < 1e-3);
+  CHECK(highest < 1.001 * first);
+}
+
+}  // namespace restitution_tests
