@@ -330,13 +330,7 @@ class FlowSimulation : public Simulation {
     stats.time = state.time;
     stats.dt = state.dt_now;
     measure_fluids(setup_->domain, setup_->fluids, state, geometry.psi, stats);
-    if (setup_->tracks_volume()) {
-      const double tracked = tracked_volume(setup_->domain, state);
-      if (setup_->fluids.has_gas()) stats.gas_volume += stats.liquid_volume - tracked;
-      stats.liquid_volume = tracked;
-      stats.volume_drifting = drifting_volume(setup_->domain, state);
-      stats.volume_spilled = state.spilled_volume;
-    }
+    if (setup_->tracks_volume()) measure_tracked(setup_->domain, setup_->fluids, state, stats);
     stats.liquid_volume -= volume_beyond(setup_->domain, setup_->solids, geometry, state.phi);
     stats.kinetic_energy += kinetic_energy_beside(setup_->domain, setup_->fluids, setup_->solids, geometry, state);
     measure_bodies(setup_->fluids, setup_->scene->time, state, stats);

@@ -358,16 +358,15 @@ Attempt<Dim> solve_within_room(const Setup<Dim>& s, const State<Dim>& before, Mo
                                Predicted<Dim> predicted, const StepTimes& times, Phases& phases) {
   constexpr int most_solves = 3;  // the fold that closes goes on by a cell a solve; what is left is little
   const Vec3 gravity = s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt);
+  const FillingStep<Dim> step{moved.state.liquid, before.now->u,      gravity,
+                              times.dt,           moved.state.room(), &*moved.state.exterior};
   for (int solves = 1, iterations = 0;; ++solves) {
     Attempt<Dim> out = solve_and_plan(s, before, moved, predicted, times, phases);
     out.solve.iterations += iterations;
     if (!out.failure.empty()) return out;
     const auto timed = phases.timers.measure("surface");
-    if (solves == most_solves ||
-        !add_filling_cells(
-            s.domain, out.geometry.faces,
-            {moved.state.liquid, before.now->u, gravity, times.dt, moved.state.room(), &*moved.state.exterior},
-            out.state.now->u, moved.state.phi, predicted.u_star, predicted.filling)) {
+    if (solves == most_solves || !add_filling_cells(s.domain, out.geometry.faces, step, out.state.now->u,
+                                                    moved.state.phi, predicted.u_star, predicted.filling)) {
       if (!predicted.filling.empty()) out.state.phi = std::move(predicted.filling.phi);
       return out;
     }

@@ -49,6 +49,16 @@ std::optional<FaceField<Dim>> path_beyond_sides(const Domain<Dim>& domain, const
   return path;
 }
 
+// Volume in drifting cells (drifting.h), m^Dim. Collective.
+template <int Dim>
+double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state) {
+  const CellField<Dim>& phi = state.liquid_phi.empty() ? state.phi : state.liquid_phi;
+  double cells = 0;
+  for (const Site c : drifting_cells(domain, phi, state.liquid))
+    if (domain.layout.cells().contains(domain.layout.index(c))) cells += state.liquid[c];
+  return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
+}
+
 }  // namespace
 
 template <int Dim>
@@ -95,12 +105,12 @@ double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state) {
 }
 
 template <int Dim>
-double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state) {
-  const CellField<Dim>& phi = state.liquid_phi.empty() ? state.phi : state.liquid_phi;
-  double cells = 0;
-  for (const Site c : drifting_cells(domain, phi, state.liquid))
-    if (domain.layout.cells().contains(domain.layout.index(c))) cells += state.liquid[c];
-  return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
+void measure_tracked(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, StepStats& stats) {
+  const double tracked = tracked_volume(domain, state);
+  if (fluids.has_gas()) stats.gas_volume += stats.liquid_volume - tracked;
+  stats.liquid_volume = tracked;
+  stats.volume_drifting = drifting_volume(domain, state);
+  stats.volume_spilled = state.spilled_volume;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                            \
@@ -110,7 +120,7 @@ double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state) {
   template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, const Ledger<D>&, State<D>&);    \
   template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);           \
   template double tracked_volume<D>(const Domain<D>&, const State<D>&);                                  \
-  template double drifting_volume<D>(const Domain<D>&, const State<D>&);
+  template void measure_tracked<D>(const Domain<D>&, const Fluids&, const State<D>&, StepStats&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -2,6 +2,8 @@
 // The liquid's volume as a field of its own beside the level set, State::liquid: carried through faces, conserved to
 // rounding but for the divergence of a prescribed flow. Where Setup::tracks_volume() is false, a shift of the level set
 // keeps the volume.
+#include "coupling/state/fluids.h"
+#include "coupling/state/simulation.h"
 #include "coupling/state/state.h"
 #include "fluid/volume/volume_transport.h"
 
@@ -32,8 +34,8 @@ std::string fault_of_volume(const Domain<Dim>& domain, const State<Dim>& before,
 // Volume of State::liquid, m^Dim. Collective.
 template <int Dim>
 double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state);
-// The part of it in drifting cells (drifting.h). Collective.
+// Sets the columns of volume from State::liquid; `stats` has those of the level set. Collective.
 template <int Dim>
-double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state);
+void measure_tracked(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, StepStats& stats);
 
 }  // namespace seiche
