@@ -11,7 +11,7 @@ struct ExportOptions {
   std::filesystem::path out;  // folder; empty: <run>/export
   std::string format;         // one of formats()
   std::string frames = "all";
-  std::string up;  // axis that points up in the files: scene, y, z; empty: as the scene's output.up says
+  std::string up{};  // axis that points up in the files: scene, y, z; empty: as the scene's output.up says
 };
 
 // Names of the formats with a line on each.

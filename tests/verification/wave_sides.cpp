@@ -40,21 +40,26 @@ Scene channel(int cells_a_metre, double length, double height, double period, bo
   return s;
 }
 
+void add_probes(Scene& s, const std::vector<double>& places) {
+  for (const double at : places) {
+    ProbeSpec probe;
+    probe.name = fmt::format("x{}", at);
+    probe.kind = ProbeKind::surface_height;
+    probe.position = {at, 0.5, 0.3 * s.domain.upper[2]};
+    s.probes.push_back(probe);
+  }
+}
+
 struct Waves {
   double height, reflected;  // m; amplitude over that of the waves that come
 };
 
 // Amplitudes in both directions from the levels at x and a quarter of a wave behind: Goda and Suzuki, Estimation of
-// incident and reflected waves in random wave experiments (1976). Over the last `periods`.
-Waves measure(Scene s, double period, double x, double end, int periods) {
-  const double w = 2 * M_PI / period, k = wave_number(w, g, depth), apart = M_PI / 2 / k;
-  for (const double at : {x, x + apart}) {
-    ProbeSpec probe;
-    probe.name = fmt::format("x{}", at);
-    probe.kind = ProbeKind::surface_height;
-    probe.position = {at, 0.5, 0};
-    s.probes.push_back(probe);
-  }
+// incident and reflected waves in random wave experiments (1976). Over the last `periods`. The direction of the waves
+// has the cosine `ahead` along x.
+Waves measure(Scene s, double period, double x, double end, int periods, double ahead = 1) {
+  const double w = 2 * M_PI / period, k = ahead * wave_number(w, g, depth), apart = M_PI / 2 / k;
+  add_probes(s, {x, x + apart});
   const auto sim = make_simulation(s, Communicator());
   std::array<Complex, 2> sum{};
   const double from = end - periods * period;
@@ -95,7 +100,50 @@ TEST_CASE("at kh = 1, 2 and 3 waves have their height two lengths from the side,
   }
 }
 
-// A wall opposite: what comes back leaves where it entered, and a standing wave of twice the height is left.
+// Measured: 0.0793 and 0.0778 m.
+TEST_CASE("an irregular sea enters with the significant height asked for", "[long]") {
+  Scene s = channel(16, 12, 0.08, 1.8, true);
+  s.domain.sides[0][0].waves.spectrum = "jonswap";
+  s.domain.sides[0][0].waves.components = 40;
+  add_probes(s, {5, 8});
+  const auto sim = make_simulation(s, Communicator());
+  std::array<double, 2> sum{}, squares{};
+  double last = 20;  // s, when the sea has spread
+  while (sim->time() < 150) {
+    sim->step(sim->time() < 20 ? 20 : 150);
+    const double span = std::max(0.0, sim->time() - last);
+    last = std::max(last, sim->time());
+    for (std::size_t n = 0; n < 2; ++n) {
+      const double eta = sim->probe(n).value - depth;
+      sum[n] += span * eta / 130, squares[n] += span * eta * eta / 130;
+    }
+  }
+  for (std::size_t n = 0; n < 2; ++n) {
+    const double height = 4 * std::sqrt(squares[n] - sum[n] * sum[n]);
+    CAPTURE(n, height);
+    CHECK(height == Approx(0.08).epsilon(0.05));
+  }
+}
+
+// Sides along z are periodic. By theory (1 - cos 30)/(1 + cos 30) = 7 % come back. Measured: 0.976 of the height,
+// 5.5 %.
+TEST_CASE("in 3D waves enter aslant", "[long]") {
+  const double period = period_of(2), cells = 8, wide = std::round(2 * M_PI * cells) / cells;
+  const double ahead = std::sqrt(1 - std::pow(M_PI / wide, 2)), length = M_PI / ahead;  // one wave along z
+  Scene s = channel(int(cells), 2 * length, 0.04, period, true);
+  s.dimension = 3;
+  s.domain.cells[2] = int(std::lround(wide * cells));
+  s.domain.upper[2] = wide;
+  for (SideSpec& side : s.domain.sides[2]) side.type = SideType::periodic;
+  s.domain.sides[0][0].waves.towards = Vec3(ahead, 0, M_PI / wide);
+  const Waves waves = measure(s, period, length, 9 * period, 2, ahead);
+  CAPTURE(waves.height, waves.reflected);
+  CHECK(waves.height == Approx(0.04).epsilon(0.05));
+  CHECK(waves.reflected <= 0.07);
+}
+
+// A wall opposite: what comes back leaves where it entered, and a standing wave of twice the height is left. Measured:
+// 0.984 of the height, 97.6 % come back.
 TEST_CASE("waves that a wall returns leave through the side where they entered", "[long]") {
   const double period = period_of(2), length = M_PI;
   const Waves waves = measure(channel(20, 3 * length, 0.02, period, false), period, length, 30 * period, 4);
