@@ -134,6 +134,7 @@ TEST_CASE("a sequence that moves rigidly pushes water as a kinematic solid does"
     Scene s = test::box_scene(3, cells);
     test::add_liquid(s, "-1");
     s.time.fixed_step = 0.01;
+    s.time.frame_rate = 10;  // plans end at frames
     Scene same = s;
     s.solids = {deforming(meshes, 20, true)};
     same.solids = {test::rigid_ball("ball", 0.2, {0.45, 0.5, 0.5}, 1)};

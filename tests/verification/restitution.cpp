@@ -41,7 +41,7 @@ double coefficient_of(const Scene& s) {
     (void)sim->step(0.9);
     const SolidState ball = sim->solids()[0];
     const double above = ball.position[1] - 0.1;
-    has_fallen = has_fallen || above < 0.01;
+    has_fallen = has_fallen || (above < 0.01 && ball.velocity[1] > -0.1);
     if (has_fallen && above > 0.002) peak = std::max(peak, above);
   }
   return std::sqrt(peak);  // the ball fell by 1 m

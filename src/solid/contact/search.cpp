@@ -36,7 +36,7 @@ class Search {
       });
     }
     for (size_t b = 0; b < body_boxes_.size(); ++b)
-      if (scene_.deforms(static_cast<int>(b)) && !body_boxes_[b].isEmpty()) meet_itself(static_cast<int>(b));
+      if (moves_by_itself(static_cast<int>(b)) && !body_boxes_[b].isEmpty()) meet_itself(static_cast<int>(b));
     if (scene_.any_deforms()) measure_edges();
     std::erase_if(found_, [&](const Candidate& c) { return stands_pinned(c); });
     return std::move(found_);
@@ -167,6 +167,13 @@ class Search {
         if (box.intersects(path(scene_.point_begin[b], two.elements[f]))) visit(e, f);
       }
     }
+  }
+
+  // True for a deformable body with points that are not pinned.
+  bool moves_by_itself(int b) const {
+    const auto pinned = scene_.pinned.begin();
+    return scene_.deforms(b) && !std::all_of(pinned + scene_.point_begin[b], pinned + scene_.point_begin[b + 1],
+                                             [](char p) { return p != 0; });
   }
 
   // Pairs within one body; each pair of elements is visited twice, once in each order.
