@@ -241,8 +241,8 @@ TEST_CASE("joints: a gate's hinge bears the moment of the water behind it", "[jo
 // A gate that leans by 17 degrees: rho g H^3/(6 cos^2) about the foot of its wet face, less that of its weight.
 TEST_CASE("joints: a leaning gate's hinge bears the moment of the water behind it", "[joints]") {
   const double lean = 17 * pi / 180, depth = 0.6, width = 0.2, height = 0.85, density = 2000;
-  Scene s = test::box_scene(2, 64, 2);
-  s.domain.upper[1] = 1, s.domain.cells[1] = 32;
+  Scene s = test::box_scene(2, 128, 2);
+  s.domain.upper[1] = 1, s.domain.cells[1] = 64;
   s.gravity = Vec3(0, -9.81, 0);
   // The foot of the wet face, the way up along it, and that into the gate.
   const Vec3 foot(0.9, 0.125, 0), up(std::sin(lean), std::cos(lean), 0), in(std::cos(lean), -std::sin(lean), 0);
@@ -261,7 +261,7 @@ TEST_CASE("joints: a leaning gate's hinge bears the moment of the water behind i
   const double moment = 9810 * std::pow(depth, 3) / 6 / std::pow(std::cos(lean), 2);
   const double borne = sim->joints()[0].torque[2] + of_weight;
   WARN("moment off by " << borne / moment - 1);
-  CHECK(borne == Approx(moment).epsilon(5e-3));
+  CHECK(borne == Approx(moment).epsilon(5e-3));  // -0.03 %; with cells twice as large -0.96 %
 }
 
 TEST_CASE("joints: a piston driven into a full cylinder is refused by name, held there it does nothing", "[joints]") {

@@ -56,7 +56,7 @@ class JointBow {
   Eigen::VectorXd y_;                       // multipliers of delta: M delta = C'y
   std::vector<Rate> delta_;                 // of each place
   Eigen::VectorXd impulse_;                 // on the unknowns, at this solve
-  std::vector<Rate> load_;                 // of each joint: on the first body, about the joint's point
+  std::vector<Rate> load_;                  // of each joint: on the first body, about the joint's point
   std::vector<Eigen::VectorXd> now_, end_;  // of each joint: on each body of its rows, at this solve and the next
 };
 
