@@ -43,6 +43,8 @@ CASES = {case.name: case for case in (
     Case("boxes_200_static", "the same boxes held where they start", "benchmarks/cases/boxes_200.toml",
          {"time.end": 0.25, "time.max_step": 0.01}, skipped_steps=8,
          edits=(('kind = "rigid"', 'kind = "static"'), (r"density = \d+, friction", "friction"))),
+    Case("chain_2d", "a dry chain of 100 links on hinges, in 2D", "benchmarks/cases/chain_2d.toml", skipped_steps=2),
+    Case("chain_3d", "the same in 3D", "benchmarks/cases/chain_3d.toml", skipped_steps=2),
     Case("immersed_block", "an elastic block under water, one step", "benchmarks/cases/immersed_block.toml"),
     Case("immersed_block_fine", "the same of some 1e5 tetrahedra, eight steps", "benchmarks/cases/immersed_block.toml",
          {"solid.0.element_size": 0.0135, "time.end": 0.008}, skipped_steps=2),

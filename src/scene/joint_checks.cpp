@@ -124,6 +124,9 @@ class JointChecker {
     const bool turns = coordinate_of(joint_.kind) == JointCoordinate::turn;
     if (joint_.drive && joint_.motor) report("drive", "it has a motor, too; give one of them");
     if (joint_.drive) check_drive(turns);
+    if (joint_.motor)
+      for (const auto* formula : {&joint_.motor->speed, &joint_.motor->target})
+        if (*formula && !signal_in(**formula)) check_finite("motor", Expression(**formula));
     if (joint_.motor && (turns ? joint_.motor->force : joint_.motor->torque))
       report("motor", turns ? "a hinge has a largest torque, not a force" : "it has a largest force, not a torque");
     if (joint_.friction > 0 && turns && !joint_.radius)
@@ -142,6 +145,36 @@ class JointChecker {
     constexpr double zero = 1e-9;
     if (!(std::abs(start) <= zero))
       report("drive", fmt::format("it must be 0 at t = 0, where the solids are as placed; it is {:g}", start));
+    else if (check_finite("drive", formula))
+      check_jumps(formula, turns);
+  }
+
+  double time_of(int sample) const { return scene_.time.end * sample / samples; }
+
+  bool check_finite(const std::string& key, const Expression& formula) const {
+    for (int i = 0; i <= samples; ++i)
+      if (!std::isfinite(formula(Vec3::Zero(), time_of(i)))) {
+        report(key, fmt::format("its formula is not finite at t = {:.6g} s", time_of(i)));
+        return false;
+      }
+    return true;
+  }
+
+  // Halves intervals in which the drive goes far. Continuous ones go less and less in them.
+  void check_jumps(const Expression& formula, bool turns) const {
+    constexpr int halvings = 30;
+    const double most = turns ? 1 : scene_.domain.cell_size;  // degrees; m
+    const auto way = [&](double a, double b) { return std::abs(formula(Vec3::Zero(), b) - formula(Vec3::Zero(), a)); };
+    for (int i = 0; i < samples; ++i) {
+      double from = time_of(i), to = time_of(i + 1);
+      for (int n = 0; n < halvings && way(from, to) > most; ++n) {
+        const double middle = 0.5 * (from + to);
+        (way(from, middle) > way(middle, to) ? to : from) = middle;
+      }
+      if (way(from, to) <= most) continue;
+      return report("drive", fmt::format("it jumps by {:.4g} {} at t = {:.6g} s; make it continuous", way(from, to),
+                                         turns ? "degrees" : "m", to));
+    }
   }
 
   void check_limits() const {
@@ -163,6 +196,8 @@ class JointChecker {
                                       names.empty() ? "there are none" : "there is " + quoted_list(names)));
     if (joint_.ratio == 0) report("ratio", "it must not be 0");
   }
+
+  static constexpr int samples = 1000;  // of a formula over the run
 
   SceneContext& context_;
   const TomlNode& root_;

@@ -39,6 +39,25 @@ inline Scene swing_scene(int dimension, double half_width, double cell, double g
   return s;
 }
 
+// Two bars of a metre, let go from the horizontal.
+inline Scene double_pendulum() {
+  Scene s = swing_scene(2, 2.6, 0.2);
+  s.solids = {bar_like("upper", {0, 0, 0}, {1, 0, 0}, 1, 0.3), bar_like("lower", {1, 0, 0}, {2, 0, 0}, 1, 0.3)};
+  s.joints = {hinge("pin", "upper", "world", {0, 0, 0}), hinge("elbow", "lower", "upper", {1, 0, 0})};
+  return s;
+}
+
+// Calls look(simulation) at the start and after each step.
+template <class Look>
+void run_steps(const Scene& s, double end, const Look& look) {
+  const auto sim = make_simulation(s, Communicator());
+  look(*sim);
+  while (sim->time() < end * (1 - 1e-12)) {
+    (void)sim->step(end);
+    look(*sim);
+  }
+}
+
 // Mechanical energy, J.
 inline double energy_of(const StepStats& s) {
   return s.kinetic_energy + s.potential_energy + s.elastic_energy;

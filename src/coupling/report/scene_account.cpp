@@ -180,6 +180,16 @@ std::string forces_text(const JointSpec& spec) {
   return text;
 }
 
+// Distance of a solid's farthest point from its centre of mass, m.
+template <int Dim>
+double extent_of(const Body<Dim>& body) {
+  if (!body.deforms()) return body.radius();
+  double largest = 0;
+  for (const Vec<Dim>& x : body.elastic().body.mesh.nodes)
+    largest = std::max(largest, (extend<Dim>(x) - body.mass().center).norm());
+  return largest;
+}
+
 template <int Dim>
 void account_joint(const Solids<Dim>& solids, const Joint& joint, SceneAccount& account) {
   constexpr double far_off = 10;  // of the body's size
@@ -193,7 +203,8 @@ void account_joint(const Solids<Dim>& solids, const Joint& joint, SceneAccount& 
   for (const int k : joint.solids) {
     if (k < 0) continue;  // the world
     const Body<Dim>& body = solids.bodies[std::size_t(k)];
-    if (body.radius() > 0) nearest = std::min(nearest, (spec.at - body.mass().center).norm() / body.radius());
+    const double size = extent_of(body);
+    if (size > 0) nearest = std::min(nearest, (spec.at - body.mass().center).norm() / size);
   }
   if (std::isfinite(nearest) && nearest > far_off)
     account.warnings.push_back(fmt::format("{}: joint '{}' is {:.0f} times the size of its solids away from them",

@@ -1,7 +1,11 @@
 #include "coupling/solids/joint_forces.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
 #include "base/scene.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solids/coupled_step.h"
@@ -132,6 +136,10 @@ std::vector<JointForce> forces_of(const ForceTask<Dim>& task) {
     const auto add = [&](Kind kind, const auto& make) {
       JointForce f = force_on(task, j, kind);
       f.force = make(f);
+      if (!std::isfinite(f.force.rest) || !std::isfinite(f.force.slope))
+        throw Error(ExitCode::cannot_continue,
+                    fmt::format("joint '{}': its motor is not finite at t = {:.6g} s; correct its formula", spec.name,
+                                task.time + task.step.horizon));
       if (f.force.slope > 0) forces.push_back(std::move(f));
     };
     if (spec.spring) add(Kind::spring, [&](const JointForce& f) { return spring_force(task, f, *spec.spring); });

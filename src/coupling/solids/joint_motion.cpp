@@ -22,6 +22,18 @@ double gap_tolerance(const Joint& joint) {
   return closed_share * (joint.size > 0 ? joint.size : 1);
 }
 
+// True for joints whose coordinates enter constraints: drives, and those that gears join.
+template <int Dim>
+std::vector<char> coordinates_in_rows(const JointSet<Dim>& joints) {
+  std::vector<char> used(joints.list.size(), 0);
+  for (std::size_t j = 0; j < used.size(); ++j) {
+    const Joint& joint = joints.list[j];
+    if (joint.drive) used[j] = 1;
+    if (joint.spec.kind == JointKind::gear) used[std::size_t(joint.first)] = used[std::size_t(joint.second)] = 1;
+  }
+  return used;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -47,7 +59,7 @@ JointMotion<Dim>::JointMotion(const JointSet<Dim>& joints, const CoupledStep<Dim
 
 template <int Dim>
 void JointMotion<Dim>::lead_patches(const std::vector<double>& near) {
-  JointedBodies after = bodies_after(velocity_in_state());
+  JointedBodies after = bodies_after(velocity_in_state(), horizon_);
   const std::vector<PlacedRow> rows =
       constraints_of(joints_, state_.joints, after, near, state_.time - state_.since_solve + horizon_);
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -59,41 +71,54 @@ void JointMotion<Dim>::lead_patches(const std::vector<double>& near) {
 
 // A leapfrog step goes on by its second half, and the next one begins with a half. Elastic solids have none.
 template <int Dim>
-JointedBodies JointMotion<Dim>::bodies_after(const Eigen::VectorXd& v) const {
-  const double half = state_.since_solve, after = state_.time - half + horizon_;
-  JointedBodies bodies = jointed_bodies(joints_, state_.solids, after);
-  for (std::size_t b = 0; b < coupling_.bodies.size(); ++b) {
-    const auto k = std::size_t(coupling_.bodies[b]);
+JointedBodies JointMotion<Dim>::bodies_after(const Eigen::VectorXd& v, double span) const {
+  const double half = std::min(state_.since_solve, span), after = state_.time - state_.since_solve + span;
+  JointedBodies bodies(state_.solids.size() + 1);
+  for (std::size_t k = 0; k < state_.solids.size(); ++k) {
+    PlacedBody& placed = bodies[k];
+    placed.solid = int(k);
     const RigidState* r = state_.solids[k].rigid();
-    if (!r) continue;
+    if (!r) {
+      placed.pose = state_.solids[k].place(after, after, after).pose;
+      placed.about = placed.pose.pivot + placed.pose.displacement;
+      continue;
+    }
     const Body<Dim>& body = state_.solids[k].body();
-    const Twist now = unstacked<Dim>(v, coupling_.first[b], r->center);
-    const Vec3 free = unstacked<Dim>(coupling_.free, coupling_.first[b], r->center).angular;
+    const int first = first_unknown(coupling_, int(k));
+    const Twist now = unstacked<Dim>(v, first, r->center);
+    const Vec3 free = unstacked<Dim>(coupling_.free, first, r->center).angular;
     RigidState moved = led_by(body, *r, now, free, horizon_);
     if (half > 0) moved = gone_on(body, moved, moved, half);
-    moved = advance(body, moved, horizon_ - half);
-    bodies[k].pose = rigid_pose(body, moved);
-    bodies[k].about = moved.center;
+    if (span > half) moved = advance(body, moved, span - half);
+    placed.pose = rigid_pose(body, moved);
+    placed.about = moved.center;
   }
-  for (std::size_t n = 0; n < joints_.patches.size(); ++n) {
-    const HeldPatch<Dim>& held = joints_.patches[n];
+  for (const HeldPatch<Dim>& held : joints_.patches) {
     const Eigen::VectorXd u = state_.solids[std::size_t(held.solid)].place(after, after, after).displacement;
     const int first = first_unknown(coupling_, held.solid);
-    bodies[state_.solids.size() + 1 + n] = placed_patch<Dim>(held, u + horizon_ * v.segment(first, u.size()));
+    bodies.push_back(placed_patch<Dim>(held, u + span * v.segment(first, u.size())));
   }
   return bodies;
 }
 
 template <int Dim>
-Eigen::VectorXd JointMotion<Dim>::gaps(const Eigen::VectorXd& v) const {
-  const std::vector<PlacedRow::Rate> rates = rates_of(coupling_, bodies_, v);
+std::vector<PlacedRow> JointMotion<Dim>::rows_after(const JointedBodies& bodies, const Eigen::VectorXd& v,
+                                                    double span) const {
   std::vector<double> near;
   for (std::size_t j = 0; j < joints_.list.size(); ++j) near.push_back(state_.joints[j].q);
-  for (int j = 0; j < int(near.size()); ++j)
-    if (has_coordinate(joints_, j))
-      near[std::size_t(j)] += horizon_ * coordinate_of_joint(joints_, j, bodies_, near[std::size_t(j)]).rate(rates);
-  const auto after =
-      constraints_of(joints_, state_.joints, bodies_after(v), near, state_.time - state_.since_solve + horizon_);
+  const std::vector<char> used = coordinates_in_rows(joints_);
+  if (span > 0 && std::find(used.begin(), used.end(), 1) != used.end()) {
+    const std::vector<PlacedRow::Rate> rates = rates_of(coupling_, bodies_, v);
+    for (int j = 0; j < int(near.size()); ++j)
+      if (used[std::size_t(j)])
+        near[std::size_t(j)] += span * coordinate_of_joint(joints_, j, bodies_, near[std::size_t(j)]).rate(rates);
+  }
+  return constraints_of(joints_, state_.joints, bodies, near, state_.time - state_.since_solve + span);
+}
+
+template <int Dim>
+Eigen::VectorXd JointMotion<Dim>::gaps(const Eigen::VectorXd& v) const {
+  const std::vector<PlacedRow> after = rows_after(bodies_after(v, horizon_), v, horizon_);
   Eigen::VectorXd c(Eigen::Index(after.size()));
   for (Eigen::Index i = 0; i < c.size(); ++i) c[i] = after[std::size_t(i)].value;
   return c;

@@ -6,6 +6,9 @@
 
 namespace seiche {
 
+template <int Dim>
+class JointBow;
+
 // C stays during a solve (SolidCoupling::J.constraints); `rate` does not: c(x + H v) = 0 is found in turns, by
 //   rate <- rate - c(x + H v)/H.
 // Impulses act along C of the start of the interval, where both sides of a joint are one point. So momenta are kept,
@@ -24,14 +27,20 @@ class JointMotion {
   std::vector<JointForce> forces;  // all along coordinates
   std::shared_ptr<const JointPotential> potential;  // of capped forces and limits; null: none
   Eigen::VectorXd slack;                            // of C v = rate, below what closes joints: m/s, rad/s
+  std::vector<char> wet;                            // of each solid: liquid or gas touches it
+  std::shared_ptr<JointBow<Dim>> bow;               // null: none
   int turns = 0;  // corrections of `rate` in this solve, after which the solids were solved for again
 
   // Velocities of the unknowns as the state has them: before the solve, then those found.
   Eigen::VectorXd velocity_in_state() const;
   const JointedBodies& bodies() const { return bodies_; }
   const std::vector<PlacedRow>& rows() const { return rows_; }
+  bool any_wet() const { return std::find(wet.begin(), wet.end(), 1) != wet.end(); }
   double horizon() const { return horizon_; }
   double dt() const { return dt_; }
+  // Places of the bodies after `span` with velocities v, and the constraints in places `bodies` near these.
+  JointedBodies bodies_after(const Eigen::VectorXd& v, double span) const;
+  std::vector<PlacedRow> rows_after(const JointedBodies& bodies, const Eigen::VectorXd& v, double span) const;
   // c(x + H v): m, rad.
   Eigen::VectorXd gaps(const Eigen::VectorXd& v) const;
   // The largest gap over its tolerance, and the joints that exceed theirs.
@@ -41,7 +50,6 @@ class JointMotion {
   double largest_gap(const Eigen::VectorXd& gaps) const;            // m
 
  private:
-  JointedBodies bodies_after(const Eigen::VectorXd& v) const;
   void lead_patches(const std::vector<double>& near);
 
   const JointSet<Dim>& joints_;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "coupling/solids/coupled_step.h"
+#include "coupling/solids/joint_bow.h"
 #include "coupling/solids/kind_rigid.h"
 
 namespace seiche {
@@ -26,10 +28,14 @@ class JointInteraction : public Interaction<Dim> {
     c.J.constraints.setFromTriplets(entries.begin(), entries.end());
     set_given(step, time, *c.joints);
     guess_rates(state, *c.joints);
+    set_wet(step, c);
+    auto bow = std::make_shared<JointBow<Dim>>(joints_, step, c, *c.joints);
+    if (!bow->empty()) c.joints->bow = std::move(bow);
   }
 
   void add_forces(const CoupledStep<Dim>& step, CouplingParts<Dim>& parts) const override {
     add_joint_forces(joints_, step, parts);
+    if (const auto& bow = parts.coupling.joints->bow) parts.coupling.push += bow->given();
   }
 
   // Impulses -C'mu act on the bodies.
@@ -51,6 +57,7 @@ class JointInteraction : public Interaction<Dim> {
     if (motion.potential)
       for (const JointLimit& limit : motion.potential->limits())
         add_limit(limit, motion.potential->impulse(limit, v) / motion.dt(), bodies, state);
+    take_bow(motion, state);
     for (std::size_t i = 0; i < motion.rows().size(); ++i) {
       JointState& joint = state.joints[std::size_t(motion.rows()[i].joint)];
       joint.gap = std::max(joint.gap, std::abs(motion.left[Eigen::Index(i)]) * motion.rows()[i].size);
@@ -92,6 +99,27 @@ class JointInteraction : public Interaction<Dim> {
     }
   }
 
+  // Collective.
+  static void set_wet(const CoupledStep<Dim>& step, SolidCoupling<Dim>& c) {
+    std::vector<double> entries(step.state.solids.size());
+    for (std::size_t b = 0; b < c.bodies.size(); ++b)
+      entries[std::size_t(c.bodies[b])] = double(c.J.blocks[b].row.size());
+    step.setup.domain.ranks.global_sum(entries);
+    for (const double n : entries) c.joints->wet.push_back(char(n > 0));
+  }
+
+  static void take_bow(const JointMotion<Dim>& motion, State<Dim>& state) {
+    for (int j = 0; j < int(state.joints.size()); ++j) {
+      JointState& joint = state.joints[std::size_t(j)];
+      joint.interval = motion.horizon();
+      if (motion.bow) {
+        motion.bow->take(j, joint);
+      } else {
+        for (Eigen::VectorXd* own : {&joint.bow, &joint.bow_rows, &joint.bow_load}) own->resize(0);
+      }
+    }
+  }
+
   // Sets the mean rate of each row's drive, less the part of prescribed solids.
   void set_given(const CoupledStep<Dim>& step, double time, JointMotion<Dim>& motion) const {
     std::vector<PlacedRow::Rate> rates = prescribed_rates(joints_, step.state.solids, time, step.horizon);
@@ -104,7 +132,13 @@ class JointInteraction : public Interaction<Dim> {
   }
 
   static double mean_drive(const Joint& joint, double time, double span) {
-    return joint.unit * ((*joint.drive)(Vec3::Zero(), time + span) - (*joint.drive)(Vec3::Zero(), time)) / span;
+    const double rate =
+        joint.unit * ((*joint.drive)(Vec3::Zero(), time + span) - (*joint.drive)(Vec3::Zero(), time)) / span;
+    if (!std::isfinite(rate))
+      throw Error(ExitCode::cannot_continue, fmt::format("joint '{}': its drive is not finite between t = {:.6g} and "
+                                                         "{:.6g} s; correct its formula",
+                                                         joint.spec.name, time, time + span));
+    return rate;
   }
 
   // Force and torque of row i on the first body about the joint's point, and its power.

@@ -95,8 +95,8 @@ template <int Dim>
 ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
                                         double horizon, double dt, const SolidCoupling<Dim>& coupling,
                                         const SpdSolver& solver, LiquidProblem<Dim>& problem,
-                                        const Eigen::VectorXd& speeds, double tolerance,
-                                        const ContactOptions& options) {
+                                        const Eigen::VectorXd& speeds, double tolerance, const ContactOptions& options,
+                                        const Eigen::VectorXd& start) {
   const double agreed = std::max(tolerances * tolerance, least_tolerance);
   ContactInLiquid r;
   const int n = problem.size();
@@ -108,6 +108,7 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
                        coupling.freedom, coupling.J.constraints,
                        coupling.joints ? coupling.joints->slack : Eigen::VectorXd());
   int newton_iterations = 0;
+  r.contact.velocity = start;
   while (r.corrections < most_corrections) {
     r.contact =
         solve_contact(scene, motions, horizon, dt, model, options, r.contact.velocity, coupling.potential.get());
@@ -128,10 +129,11 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
   return r;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template ContactInLiquid solve_contact_in_liquid<D>(                                                    \
-      const ContactScene<D>&, const std::vector<ContactMotion>&, double, double, const SolidCoupling<D>&, \
-      const SpdSolver&, LiquidProblem<D>&, const Eigen::VectorXd&, double, const ContactOptions&);
+#define SEICHE_INSTANTIATE(D)                                                                                    \
+  template ContactInLiquid solve_contact_in_liquid<D>(const ContactScene<D>&, const std::vector<ContactMotion>&, \
+                                                      double, double, const SolidCoupling<D>&, const SpdSolver&, \
+                                                      LiquidProblem<D>&, const Eigen::VectorXd&, double,         \
+                                                      const ContactOptions&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

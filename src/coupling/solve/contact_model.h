@@ -51,11 +51,12 @@ constexpr std::size_t most_modelled = 100;
 
 // Minimum of the energy of liquid and bodies with contact and the potential of their joints. The pressure of `problem`
 // belongs to the velocities returned. `speeds`: speed of the body's farthest point per unit of each degree of freedom.
-// Collective.
+// `start`: as of solve_contact(). Collective.
 template <int Dim>
 ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
                                         double horizon, double dt, const SolidCoupling<Dim>& coupling,
                                         const SpdSolver& solver, LiquidProblem<Dim>& problem,
-                                        const Eigen::VectorXd& speeds, double tolerance, const ContactOptions& options);
+                                        const Eigen::VectorXd& speeds, double tolerance, const ContactOptions& options,
+                                        const Eigen::VectorXd& start);
 
 }  // namespace seiche

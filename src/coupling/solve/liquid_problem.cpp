@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "coupling/solids/joint_bow.h"
 #include "linalg/core/shared_columns.h"
 
 namespace seiche {
@@ -112,13 +113,13 @@ Eigen::VectorXd LiquidProblem<Dim>::impulse_on_held() const {
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd& v,
                                                           const Eigen::VectorXd& force) const {
-  const Eigen::VectorXd gradient = coupling_.mass * v - coupling_.push - force - impulse_on_held();
+  const Eigen::VectorXd gradient = coupling_.mass * v - push_with_bow(coupling_) - force - impulse_on_held();
   return {{}, Shape::convex, v, gradient, -impulse_of_means()};
 }
 
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
-  Eigen::VectorXd push = coupling_.push + r;
+  Eigen::VectorXd push = push_with_bow(coupling_) + r;
   if (kkt_) return minimise_together(K, push);
   if (!H_.set(uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push),
               coupling_.J.constraints))

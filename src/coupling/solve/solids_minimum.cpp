@@ -59,12 +59,12 @@ template <int Dim>
 ContactInLiquid solve_modelled(const Solids<Dim>& solids, const SolverSpec& solver,
                                const std::vector<ContactMotion>& motions, double dt, double horizon,
                                const SolidCoupling<Dim>& coupling, const InviscidLiquid<Dim>& liquid,
-                               const ContactOptions& options) {
+                               const ContactOptions& options, const Eigen::VectorXd& start) {
   const bool of_joints = coupling.joints && coupling.potential == coupling.joints->potential;
   const bool fits = (!coupling.potential || of_joints) && coupling.bodies.size() <= most_modelled;
   if (!liquid.solver || !fits || !liquid.solver->sensed_components().empty()) return {};
   return solve_contact_in_liquid(*solids.contact, motions, horizon, dt, coupling, *liquid.solver, *liquid.problem,
-                                 unit_speeds(solids, coupling), solver.tolerance, options);
+                                 unit_speeds(solids, coupling), solver.tolerance, options, start);
 }
 
 // Constraint impulse of the fixed unknowns, the gradient of all energies:
@@ -77,36 +77,62 @@ Eigen::VectorXd held_part(const SolidCoupling<Dim>& coupling, Eigen::VectorXd re
   return residual;
 }
 
-// The minimum with the present rates of the joints.
+// Inputs of the minimum that joints do not change.
 template <int Dim>
-ContactReport minimise_once(const Setup<Dim>& s, const std::vector<ContactMotion>& motions, double dt, double horizon,
-                            const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
-                            const InviscidLiquid<Dim>& liquid, const Eigen::VectorXd& start) {
-  const ContactOptions options =
-      contact_options(s.domain, s.scene->domain, s.scene->time, s.fluids.gravity, s.perturbation);
-  ContactInLiquid modelled = solve_modelled(s.solids, s.scene->solver, motions, dt, horizon, coupling, liquid, options);
+struct MinimumTask {
+  const Setup<Dim>& s;
+  const std::vector<ContactMotion>& motions;
+  double dt, horizon;
+  const SolidCoupling<Dim>& coupling;
+  CoupledProblem<Dim>& problem;
+  const InviscidLiquid<Dim>& liquid;
+  ContactOptions options;
+};
+
+// The minimum with the present rates of the joints. `start`: velocities near the solution; `touching`: those of an
+// earlier minimum with contact. Either may be empty.
+template <int Dim>
+ContactReport minimise_once(const MinimumTask<Dim>& t, const Eigen::VectorXd& start, const Eigen::VectorXd& touching) {
+  ContactInLiquid modelled = solve_modelled(t.s.solids, t.s.scene->solver, t.motions, t.dt, t.horizon, t.coupling,
+                                            t.liquid, t.options, touching);
   ContactReport contact = std::move(modelled.contact);
-  if (contact.velocity.size() == 0 && problem.notices_indefinite()) contact.velocity = start;
+  if (contact.velocity.size() == 0 && t.problem.notices_indefinite()) contact.velocity = start;
   if (!modelled.agreed && contact.failure.empty())
-    contact = solve_in_turns(s.solids, motions, dt, horizon, coupling, problem, options, contact);
+    contact = solve_in_turns(t.s.solids, t.motions, t.dt, t.horizon, t.coupling, t.problem, t.options, contact);
   return contact;
+}
+
+// Speed of the fastest point by which velocities may be corrected without another solve where bodies touch: contact and
+// friction are then linear. With elastic solids: what Newton's method leaves.
+template <int Dim>
+double speed_without_solve(const MinimumTask<Dim>& t, const ContactReport& contact) {
+  constexpr double of_gap = 1e-2, of_creep = 0.1;
+  if (t.coupling.potential && t.coupling.potential != t.coupling.joints->potential) return t.options.speed_tolerance;
+  return std::max(t.options.speed_tolerance,
+                  std::min(of_gap * contact.smallest_gap / t.horizon, of_creep * t.options.creep_speed));
 }
 
 // Repeats the minimum with corrected rates until the joints are closed where the next solve stands.
 template <int Dim>
-ContactReport minimise_with_joints(const Setup<Dim>& s, const std::vector<ContactMotion>& motions, double dt,
-                                   double horizon, const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
-                                   const InviscidLiquid<Dim>& liquid, const Eigen::VectorXd& start) {
-  JointTurns<Dim> turns(coupling, s.domain.ranks, start.size() > 0 ? start : coupling.joints->velocity_in_state());
-  ContactReport contact = minimise_once(s, motions, dt, horizon, coupling, problem, liquid, start);
+ContactReport minimise_with_joints(MinimumTask<Dim> t, const Eigen::VectorXd& start) {
+  const SolidCoupling<Dim>& coupling = t.coupling;
+  t.options.keeps_hessian = true;
+  JointTurns<Dim> turns(coupling, t.s.domain.ranks, start.size() > 0 ? start : coupling.joints->velocity_in_state());
+  ContactReport contact = minimise_once(t, start, {});
+  const Eigen::VectorXd speeds = unit_speeds(t.s.solids, coupling);
   int newton_iterations = 0;
   while (contact.failure.empty()) {
     const bool exact = contact.active > 0 || coupling.potential;
-    contact.failure = turns.correct(contact.velocity, exact ? 0 : s.scene->solver.tolerance);
+    if (exact) turns.stiffen(contact.hessian);
+    const double fastest = exact ? speed_without_solve(t, contact) : 0;
+    contact.failure = turns.correct(contact.velocity, [&](const Eigen::VectorXd& change) {
+      return exact ? change.cwiseProduct(speeds).cwiseAbs().maxCoeff() <= fastest
+                   : change.norm() <= t.s.scene->solver.tolerance * contact.velocity.norm();
+    });
     if (!contact.failure.empty() || turns.done()) break;
     newton_iterations += contact.newton_iterations;
-    const Eigen::VectorXd from = exact ? contact.velocity : start;
-    contact = minimise_once(s, motions, dt, horizon, coupling, problem, liquid, from);
+    const Eigen::VectorXd from = exact ? contact.velocity : start, touching = exact ? from : Eigen::VectorXd();
+    contact = minimise_once(t, from, touching);
   }
   contact.newton_iterations += newton_iterations;
   if (contact.failure.empty()) turns.finish(contact.residual);
@@ -128,9 +154,13 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
     return r;
   }
   const auto motions = contact_motions(state, horizon);
-  ContactReport contact = coupling.is_constrained()
-                              ? minimise_with_joints(s, motions, dt, horizon, coupling, problem, liquid, start)
-                              : minimise_once(s, motions, dt, horizon, coupling, problem, liquid, start);
+  const MinimumTask<Dim> task{
+      s,        motions,
+      dt,       horizon,
+      coupling, problem,
+      liquid,   contact_options(s.domain, s.scene->domain, s.scene->time, s.fluids.gravity, s.perturbation)};
+  ContactReport contact =
+      coupling.is_constrained() ? minimise_with_joints(task, start) : minimise_once(task, start, {});
   r.failure = contact.failure;
   r.newton_iterations = contact.newton_iterations;
   r.contacts = contact.active;

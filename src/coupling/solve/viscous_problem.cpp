@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "coupling/solids/joint_bow.h"
+
 namespace seiche {
 
 template <int Dim>
@@ -58,7 +60,7 @@ InertiaResponse ViscousProblem<Dim>::response_at(const Eigen::VectorXd& v) const
   reaction += local_transposed(viscous_.G_held(), u_) + local_transposed(viscous_.J_held(), p_);
   ranks_.global_sum(std::span<double>(reaction.data(), std::size_t(reaction.size())));
   make_identical(reaction, ranks_);
-  const Eigen::VectorXd gradient = coupling_.mass * v - coupling_.push - system.g + system.Hvv * v + reaction;
+  const Eigen::VectorXd gradient = coupling_.mass * v - push_with_bow(coupling_) - system.g + system.Hvv * v + reaction;
   return {{}, Shape::convex, v, gradient, reaction_of_means()};
 }
 
@@ -75,7 +77,7 @@ Eigen::VectorXd ViscousProblem<Dim>::reaction_of_means() const {
 template <int Dim>
 InertiaResponse ViscousProblem<Dim>::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
   const ViscousSystem<Dim>& system = viscous_.system();
-  Eigen::VectorXd push = coupling_.push + r + system.g;
+  Eigen::VectorXd push = push_with_bow(coupling_) + r + system.g;
   SparseMatrix H = coupling_.mass + system.Hvv;
   if (K.nonZeros() > 0) H = H + K;
   if (!H_.set(uncouple_held(coupling_, H, push), coupling_.J.constraints)) return indefinite_response();

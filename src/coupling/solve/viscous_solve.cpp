@@ -131,7 +131,7 @@ void SplitViscosity<Dim>::act(const PressureProblem<Dim>& liquid, SolidCoupling<
   Vector p = guessed_pressure(in, r.rows), u = viscous_.gather(pressed_);
   Eigen::VectorXd impulse = dt * multiply_transposed(viscous_.J(), p, in.setup.domain.ranks);
   make_identical(impulse, in.setup.domain.ranks);
-  Eigen::VectorXd push = coupling.push + impulse + system.g, v = coupling.free;
+  Eigen::VectorXd push = push_with_bow(coupling) + impulse + system.g, v = coupling.free;
   BodyMatrix H(in.setup.domain.ranks);
   if (!H.set(uncouple_held(coupling, coupling.mass + system.Hvv, push), coupling.J.constraints)) {
     r.failure = "the matrix of the solids' inertia and drag is not positive definite";

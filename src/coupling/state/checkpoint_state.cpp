@@ -138,6 +138,13 @@ void visit_loads(const std::string& cause, std::vector<SolidLoad>& loads, FieldV
     }
 }
 
+void visit_sized(const std::string& name, Eigen::VectorXd& values, StateVisitor& visitor) {
+  double size = double(values.size());
+  visitor.number(name + "_size", size);
+  values.conservativeResize(Eigen::Index(size));
+  visitor.vector(name, values);
+}
+
 void visit_joint(std::size_t k, JointState& joint, StateVisitor& visitor) {
   const std::string prefix = fmt::format("joint.{}.", k);
   double broken = joint.broken, rows = double(joint.bend.size());
@@ -156,6 +163,11 @@ void visit_joint(std::size_t k, JointState& joint, StateVisitor& visitor) {
   joint.broken = broken != 0;
   joint.bend.conservativeResize(Eigen::Index(rows));
   visitor.vector(prefix + "bend", joint.bend);
+  if (!visitor.has(prefix + "interval")) return;  // checkpoints of earlier versions
+  visitor.number(prefix + "interval", joint.interval);
+  visit_sized(prefix + "bow", joint.bow, visitor);
+  visit_sized(prefix + "bow_rows", joint.bow_rows, visitor);
+  visit_sized(prefix + "bow_load", joint.bow_load, visitor);
 }
 
 // Eleven numbers an impulse: those of its impact come first.

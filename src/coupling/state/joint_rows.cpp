@@ -119,6 +119,34 @@ std::vector<std::array<int, 2>> JointSet<Dim>::pairs_apart() const {
   return pairs;
 }
 
+namespace {
+
+// True if the joint leaves its first solid no motion against the second.
+bool holds_still(const Joint& joint) {
+  const bool one_way = joint.spec.kind == JointKind::slider || joint.spec.kind == JointKind::hinge;
+  return joint.spec.kind == JointKind::weld || (one_way && joint.drive && joint.drive->is_constant());
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<char> held_still(const JointSet<Dim>& joints, const std::vector<Body<Dim>>& bodies) {
+  std::vector<char> held(bodies.size(), 0);
+  const auto stands = [&](int k) { return k < 0 || held[std::size_t(k)] || !bodies[std::size_t(k)].moves(); };
+  for (bool found = true; found;) {
+    found = false;
+    for (const Joint& joint : joints.list)
+      for (const int side : {0, 1}) {
+        const int k = joint.solids[std::size_t(side)];
+        if (joint.spec.kind == JointKind::gear || stands(k) || !stands(joint.solids[std::size_t(1 - side)])) continue;
+        if (!bodies[std::size_t(k)].is_free() || bodies[std::size_t(k)].deforms() || !holds_still(joint)) continue;
+        held[std::size_t(k)] = 1;
+        found = true;
+      }
+  }
+  return held;
+}
+
 template <int Dim>
 std::string JointSet<Dim>::names_of(const std::vector<int>& joints) const {
   std::vector<std::string> names;
@@ -180,6 +208,7 @@ template <int Dim>
 std::vector<PlacedRow> constraints_of(const JointSet<Dim>& joints, const std::vector<JointState>& states,
                                       const JointedBodies& bodies, const std::vector<double>& near, double time) {
   std::vector<PlacedRow> rows;
+  rows.reserve(6 * joints.list.size());
   for (int j = 0; j < int(joints.list.size()); ++j) {
     const Joint& joint = joints.list[std::size_t(j)];
     if (states[std::size_t(j)].broken) continue;
@@ -253,6 +282,7 @@ int most_overloaded(const JointSet<Dim>& joints, const std::vector<JointState>& 
 #define SEICHE_INSTANTIATE(D)                                                                           \
   template struct JointSet<D>;                                                                          \
   template JointedBodies jointed_bodies<D>(const JointSet<D>&, const Participants<D>&, double);         \
+  template std::vector<char> held_still<D>(const JointSet<D>&, const std::vector<Body<D>>&);            \
   template PlacedBody placed_patch<D>(const HeldPatch<D>&, const Eigen::VectorXd&);                     \
   template Vec3 point_of_joint<D>(const JointSet<D>&, int, const JointedBodies&);                       \
   template std::vector<JointReport> report_joints<D>(const JointSet<D>&, const State<D>&);              \

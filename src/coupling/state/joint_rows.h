@@ -47,6 +47,10 @@ struct JointSet {
   std::string names_of(const std::vector<int>& joints) const;
 };
 
+// 1 for the rigid solids that joints hold where they are: welds, and drives that stay 0, to what stands still.
+template <int Dim>
+std::vector<char> held_still(const JointSet<Dim>& joints, const std::vector<Body<Dim>>& bodies);
+
 // A body of joints: a solid, the world or a patch, and its velocity (v, w) per unit of each unknown of the solid.
 struct PlacedBody : JointedBody {
   using Rate = Eigen::Matrix<double, 6, 1>;

@@ -16,6 +16,10 @@ struct JointState {
   double power = 0;  // that it brings into its bodies: drive, motor, prescribed bodies, W
   bool broken = false;
   Eigen::VectorXd bend = {};  // of each of its constraints: rate of the last solve, a first guess of the next one's
+  // Impulses of the last interval's bow at its end (coupling/solids/joint_bow.h): on each body of its constraints, six
+  // numbers a body; along each of them; on its first body about its point. Empty: none.
+  Eigen::VectorXd bow = {}, bow_rows = {}, bow_load = {};
+  double interval = 0;  // of the last solve, s
 };
 
 }  // namespace seiche

@@ -33,16 +33,25 @@ FieldValues<char> cells_near_outside(const Domain<Dim>& domain, const StepGeomet
   return near;
 }
 
-// 1 for the bodies that have not moved since the start; 0 for all that forces move.
+// True if the pose is that of the start, up to round-off for a body that joints hold: a billionth of a cell.
 template <int Dim>
-std::vector<char> unmoved_bodies(const Solids<Dim>& solids, const StepGeometry<Dim>& g) {
+bool is_as_at_start(const Body<Dim>& body, const Placement& placed, double h, bool held) {
+  const Pose start = body.pose(0), &now = placed.pose;
+  if (!held)
+    return start.displacement == now.displacement && start.rotation == now.rotation && placed.twist.at_rest() &&
+           !body.is_free();
+  const double way =
+      (now.displacement - start.displacement).norm() + (now.rotation - start.rotation).norm() * body.radius();
+  return way <= 1e-9 * h;
+}
+
+// 1 for the bodies that have not moved since the start; 0 for all that forces move, unless joints hold them still.
+template <int Dim>
+std::vector<char> unmoved_bodies(const Layout<Dim>& layout, const Solids<Dim>& solids, const StepGeometry<Dim>& g) {
+  const std::vector<char> held = held_still(solids.joints, solids.bodies);
   std::vector<char> unmoved;
-  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
-    const Body<Dim>& body = solids.bodies[k];
-    const Pose start = body.pose(0), &now = g.placed[k].pose;
-    const bool same = start.displacement == now.displacement && start.rotation == now.rotation;
-    unmoved.push_back(same && g.placed[k].twist.at_rest() && !body.is_free());
-  }
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k)
+    unmoved.push_back(is_as_at_start(solids.bodies[k], g.placed[k], layout.h(), held[k] != 0));
   return unmoved;
 }
 
@@ -160,7 +169,7 @@ template <int Dim>
 CellField<Dim, char> closed_cells(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g) {
   CellField<Dim, char> closed(domain.layout, 0);
   if (solids.bodies.empty()) return closed;
-  const std::vector<char> unmoved = unmoved_bodies(solids, g);
+  const std::vector<char> unmoved = unmoved_bodies(domain.layout, solids, g);
   for_each_site(domain.layout, domain.layout.cells(),
                 [&](Site c) { closed[c] = is_closed(domain, g, unmoved, c) ? 1 : 0; });
   domain.halo.fill_ghosts({closed.data()});

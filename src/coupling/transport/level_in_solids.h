@@ -8,8 +8,9 @@
 namespace seiche {
 
 // 1 in the cells that unmoved solids fill entirely: no face is open, no corner outside. Ghosts filled. Unmoved solids
-// are static ones, and prescribed ones until they first move. In other solids phi moves with the body. There,
-// extrapolation from air behind a moving body would release liquid that the body hides. Collective.
+// are static ones, and prescribed ones and those that joints hold still until they first move. In other solids phi
+// moves with the body. There, extrapolation from air behind a moving body would release liquid that the body hides.
+// Collective.
 template <int Dim>
 CellField<Dim, char> closed_cells(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                   const StepGeometry<Dim>& geometry);

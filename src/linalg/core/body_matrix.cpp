@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "linalg/core/dense_factors.h"
 #include "linalg/core/shared_columns.h"
 
 namespace seiche {
@@ -28,6 +29,28 @@ std::vector<std::vector<int>> connected_parts(const SparseMatrix& H) {
   std::vector<std::vector<int>> list;
   for (auto& [root, rows] : parts) list.push_back(std::move(rows));
   return list;
+}
+
+// Unknowns of a block that is solved for by itself: those of a rigid body.
+constexpr std::size_t most_alone = 6;
+
+// Appends the entries of H^-1 C' in the rows of a block that H does not couple with others.
+void append_solved_alone(const SparseMatrix& H, const SparseMatrix& C, const std::vector<int>& block,
+                         std::vector<Eigen::Triplet<double>>& entries) {
+  const auto n = Eigen::Index(block.size());
+  std::map<int, Eigen::VectorXd> columns;
+  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (SparseMatrix::InnerIterator it(C, block[std::size_t(k)]); it; ++it)
+      columns.try_emplace(int(it.row()), Eigen::VectorXd::Zero(n)).first->second[k] = it.value();
+    for (Eigen::Index i = 0; i < n; ++i) own(i, k) = H.coeff(block[std::size_t(i)], block[std::size_t(k)]);
+  }
+  if (columns.empty()) return;
+  const DenseLlt factor(own);
+  for (const auto& [column, b] : columns) {
+    const Eigen::VectorXd x = factor.solve(b);
+    for (Eigen::Index i = 0; i < n; ++i) entries.emplace_back(block[std::size_t(i)], column, x[i]);
+  }
 }
 
 Eigen::VectorXd gathered(const Eigen::VectorXd& b, const std::vector<int>& rows) {
@@ -93,8 +116,26 @@ bool BodyMatrix::set(SparseMatrix H, const SparseMatrix& C) {
     if (good && part.owner == ranks_.rank()) good = part.factor.factor(submatrix(part.rows));
   constraints_ = {};
   if (ranks_.any(!good)) return false;
-  if (C.rows() > 0) constraints_ = {C, solve_columns_freely(Eigen::MatrixXd(C.transpose()))};
+  if (C.rows() > 0) constraints_ = {C, solve_rows_freely(C)};
   return true;
+}
+
+// Columns of rigid bodies, which no other body shares, are solved for by themselves, so that they stay sparse.
+SparseMatrix BodyMatrix::solve_rows_freely(const SparseMatrix& C) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  SparseMatrix rest(C.rows(), C.cols());
+  std::vector<Eigen::Triplet<double>> of_rest;
+  for (const std::vector<int>& block : connected_parts(H_))
+    if (block.size() <= most_alone)
+      append_solved_alone(H_, C, block, entries);
+    else
+      for (const int k : block)
+        for (SparseMatrix::InnerIterator it(C, k); it; ++it) of_rest.emplace_back(int(it.row()), k, it.value());
+  SparseMatrix X(C.cols(), C.rows());
+  X.setFromTriplets(entries.begin(), entries.end());
+  if (of_rest.empty()) return X;
+  rest.setFromTriplets(of_rest.begin(), of_rest.end());
+  return X + SparseMatrix(solve_columns_freely(Eigen::MatrixXd(rest.transpose())).sparseView());
 }
 
 void BodyMatrix::keep(const SparseMatrix& H) {

@@ -52,6 +52,7 @@ class BodyMatrix {
   bool factor_shared();
   Eigen::VectorXd solve_freely(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve_columns_freely(const Eigen::MatrixXd& B) const;
+  SparseMatrix solve_rows_freely(const SparseMatrix& C) const;  // H^-1 C'
 
   Communicator ranks_;
   SparseMatrix H_;

@@ -2,7 +2,7 @@
 // Linear constraints C v = b on unknowns v with a positive definite matrix H, by their multipliers.
 #include <vector>
 
-#include "linalg/core/sparse_cholesky.h"
+#include "linalg/core/ranked_cholesky.h"
 
 namespace seiche {
 
@@ -14,8 +14,9 @@ class ConstraintRows {
  public:
   // No constraints.
   ConstraintRows() = default;
-  // X: dense, one column a row of C.
-  ConstraintRows(const SparseMatrix& C, Eigen::MatrixXd X);
+  // X: one column a row of C.
+  ConstraintRows(const SparseMatrix& C, SparseMatrix X);
+  ConstraintRows(const SparseMatrix& C, const Eigen::MatrixXd& X);
 
   bool empty() const { return C_.rows() == 0; }
   const SparseMatrix& rows() const { return C_; }
@@ -31,11 +32,9 @@ class ConstraintRows {
  private:
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
 
-  SparseMatrix C_;
-  Eigen::MatrixXd X_;
-  Eigen::VectorXd scale_;   // W_ii^(-1/2); 0 for empty rows
-  std::vector<int> order_;  // independent rows, in the order of their pivots
-  Eigen::MatrixXd L_;       // lower factor of the scaled W of these rows
+  SparseMatrix C_, X_;
+  Eigen::VectorXd scale_;  // W_ii^(-1/2); 0 for empty rows
+  RankedCholesky factor_;  // of the scaled W
 };
 
 }  // namespace seiche

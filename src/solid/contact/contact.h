@@ -56,6 +56,7 @@ struct ContactOptions {
   double speed_tolerance = 1e-5;  // m/s: Newton stops when its step moves no point faster
   int newton_limit = 200;         // Newton iterations for fixed friction forces
   int friction_limit = 30;        // updates of the friction forces
+  bool keeps_hessian = false;     // ContactReport::hessian is wanted
 };
 
 struct BodyImpulse {
@@ -85,6 +86,8 @@ struct ContactReport {
   FrictionState friction = FrictionState::none;
   std::vector<BodyImpulse> impulses;  // from contact, one a body
   std::vector<PairImpulse> pairs;     // of pairs of bodies that do not deform, or of such a body and a wall
+  // Of contact, friction and potential in Newton's last iteration, this rank's columns. Empty: none.
+  Eigen::SparseMatrix<double> hessian = {};
 };
 
 // Bodies and walls prepared for any number of solves. Copies share the prepared data.

@@ -226,7 +226,9 @@ class Solver {
       const Eigen::VectorXd r = inertia_.multiply(terms_.K, e_.velocity) - terms_.gradient - terms_.drag;
       inertia_.linearise_at(e_.velocity);
       if (take(inertia_.minimise(terms_.K, r), goal) == Outcome::failed) return Outcome::failed;
-      if (goal.shape == Shape::convex) return Outcome::converged;
+      if (goal.shape != Shape::convex) continue;
+      if (options_.keeps_hessian) report_.hessian = terms_.K;
+      return Outcome::converged;
     }
     return fail("contact: the energy of the bodies' inertia is not convex");
   }

@@ -194,6 +194,7 @@ std::vector<JointRow> joint_constraints(JointKind kind, int dimension, const Joi
                                         const JointedBody& first, const JointedBody& second) {
   const Places places = placed(frames, first, second);
   std::vector<JointRow> rows;
+  rows.reserve(held_by(kind, dimension).size());
   for (const Held held : held_by(kind, dimension)) rows.push_back(held_row(held, places, frames.length));
   return rows;
 }

@@ -85,4 +85,38 @@ TEST_CASE("loads without multipliers are the transpose of motions on the constra
   CHECK((c.C.transpose() * (found + multipliers)).norm() <= 1e-12);
 }
 
+// A chain of bodies, closed by one joint more and with the rows of every third joint twice: W is sparse.
+TEST_CASE("a long chain of bodies moves on its constraints", "[body matrix]") {
+  constexpr int bodies = 60, held = 5;
+  std::mt19937 random(3);
+  std::vector<Eigen::Triplet<double>> mass, rows;
+  for (int k = 0; k < bodies; ++k) {
+    const Eigen::MatrixXd R = random_matrix(6, 6, random);
+    const Eigen::MatrixXd M = std::pow(10, k % 4) * (R * R.transpose() + Eigen::MatrixXd::Identity(6, 6));
+    for (int i = 0; i < 36; ++i) mass.emplace_back(6 * k + i / 6, 6 * k + i % 6, M(i / 6, i % 6));
+  }
+  int count = 0;
+  const auto join = [&](int a, int b, int copies) {
+    const Eigen::MatrixXd first = random_matrix(held, 6, random), second = random_matrix(held, 6, random);
+    for (int copy = 0; copy < copies; ++copy, count += held)
+      for (int i = 0; i < held; ++i)
+        for (int k = 0; k < 6; ++k) {
+          rows.emplace_back(count + i, 6 * a + k, first(i, k));
+          rows.emplace_back(count + i, 6 * b + k, second(i, k));
+        }
+  };
+  for (int k = 0; k + 1 < bodies; ++k) join(k, k + 1, k % 3 == 0 ? 2 : 1);
+  join(0, bodies - 1, 1);
+  SparseMatrix M(6 * bodies, 6 * bodies), C(count, 6 * bodies);
+  M.setFromTriplets(mass.begin(), mass.end());
+  C.setFromTriplets(rows.begin(), rows.end());
+  BodyMatrix H{Communicator()};
+  REQUIRE(H.set(M, C));
+  CHECK(H.constraints().independent().size() == held * bodies);
+  const Eigen::VectorXd r = random_matrix(6 * bodies, 1, random), b = C * random_matrix(6 * bodies, 1, random);
+  const Eigen::VectorXd v = H.solve(r) + H.prescribed(b), y = H.multipliers_against(M * v - r);
+  CHECK((C * v - b).norm() <= 1e-11 * b.norm());
+  CHECK((M * v - r + C.transpose() * y).norm() <= 1e-10 * (M * v - r).norm());
+}
+
 }  // namespace constraint_rows_tests

@@ -96,6 +96,10 @@ TEST_CASE("a joint's forces must fit each other and its start") {
                 "it has a motor, too");
   check_refused(with_boxes(2, hinge("drive = { degrees = \"5+t\" }\n")), "it must be 0 at t = 0");
   check_refused(with_boxes(2, hinge("drive = { translate = \"t\" }\n")), "driven by degrees");
+  check_refused(with_boxes(2, hinge("drive = { degrees = \"0*sqrt(0.3-t)\" }\n")), "not finite at t = 0.3");
+  check_refused(with_boxes(2, hinge("motor = { target = \"0*sqrt(0.3-t)\", stiffness = 1 }\n")), "not finite at");
+  check_refused(with_boxes(2, hinge("drive = { degrees = \"90*rint(t)\" }\n")), "jumps by 90 degrees at t = 0.5");
+  check_refused(with_boxes(2, hinge("motor = { target = 1, stiffness = -1 }\n")), "must be >= 0");
   check_refused(with_boxes(2, hinge("motor = { speed = 1 }\n")), "needs its largest torque");
   check_refused(with_boxes(2, hinge("motor = { speed = 1, torque = 0 }\n")), "must be > 0");
   check_refused(with_boxes(2, hinge("motor = { speed = 1, force = 1 }\n")), "not a force");
