@@ -226,9 +226,8 @@ class Solver {
       const Eigen::VectorXd r = inertia_.multiply(terms_.K, e_.velocity) - terms_.gradient - terms_.drag;
       inertia_.linearise_at(e_.velocity);
       if (take(inertia_.minimise(terms_.K, r), goal) == Outcome::failed) return Outcome::failed;
-      if (goal.shape != Shape::convex) continue;
-      if (options_.keeps_hessian) report_.hessian = terms_.K;
-      return Outcome::converged;
+      if (goal.shape == Shape::convex && options_.keeps_hessian) report_.hessian = terms_.K;
+      if (goal.shape == Shape::convex) return Outcome::converged;
     }
     return fail("contact: the energy of the bodies' inertia is not convex");
   }
@@ -346,9 +345,8 @@ class Solver {
   }
 
   void finish() {
-    const Velocities<Dim> still = velocities(Eigen::VectorXd::Zero(inertia_.size()), 0);
-    report_.straight_share =
-        walk<Dim>(scene_, interval_, place<Dim>(scene_, interval_, still), at_.velocities, 0).share;
+    const auto still = place<Dim>(scene_, interval_, velocities(Eigen::VectorXd::Zero(inertia_.size()), 0));
+    report_.straight_share = walk<Dim>(scene_, interval_, still, at_.velocities, 0).share;
     report_.residual = e_.gradient + terms_.gradient;  // with the friction forces of the minimisation
     if (potential_) potential_->add_gradient(e_.velocity, report_.residual);
     const auto friction = friction_points<Dim>(scene_, at_, pairs_, weights_);
