@@ -124,9 +124,8 @@ std::array<double, 2> first_harmonic(const Scene& s) {
   return {std::hypot(along, across), std::atan2(across, along) / (2 * test::pi)};
 }
 
-// Loads of kinematic solids are those of a step before, those of nodes with prescribed motion of the coming step.
+// Measured: amplitudes differ by 0.013 and 0.014, leads by 0.8 and 0.4 ms.
 TEST_CASE("a sequence that moves rigidly pushes water as a kinematic solid does", "[deforming][long]") {
-  double coarse = 0;
   for (const int cells : {12, 24}) {
     Meshes meshes;
     for (int k = 0; k < 20; ++k)
@@ -145,9 +144,8 @@ TEST_CASE("a sequence that moves rigidly pushes water as a kinematic solid does"
     const double difference = std::abs(one / two - 1);
     WARN(cells << " cells: amplitudes " << one << " and " << two << " N, leads " << lead << " and " << other_lead
                << " s, amplitudes differ by " << difference);
-    if (cells == 24) CHECK(difference < std::max(0.02, 0.5 * coarse));
-    CHECK(std::abs(lead - other_lead) < 0.02);
-    coarse = difference;
+    CHECK(difference < 0.02);
+    CHECK(std::abs(lead - other_lead) < 0.002);
   }
 }
 

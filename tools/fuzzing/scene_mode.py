@@ -27,7 +27,7 @@ def lay_out(bench, scene, folder):
     text = to_toml(scene)
     (folder / "scene.toml").write_text(text, encoding="utf-8")
     for name, data in bench.things["assets"].items():
-        if f'"{name}"' in text:
+        if f'"{name}"' in text or (name.startswith("beat.") and '"beat.0.obj"' in text):   # a sequence names its first
             (folder / name).write_bytes(data)
     for name, data in files_in(text):
         (folder / name).write_bytes(data)

@@ -18,8 +18,8 @@ class MeshSequence {
 
   const SurfaceMesh& first() const { return first_; }
   int count() const { return int(points_.size()); }
-  // Places of the points at time t, m: a cubic in time between two meshes, with the slopes of their neighbours (Catmull
-  // and Rom 1974). Velocities have no jumps. Without a loop the points rest before the first mesh and after the last.
+  // Places of the points at time t, m: a cubic spline in time through the meshes, so velocities and accelerations have
+  // no jumps. Without a loop the points rest before the first mesh and after the last.
   std::vector<Vec3> points_at(double t) const;
 
  private:
