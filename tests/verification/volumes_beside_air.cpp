@@ -54,13 +54,13 @@ TEST_CASE("liquid under gas at rest stays at rest with volumes in cells", "[volu
   }
 }
 
-// By the shift of the level set, the splash in 2D gains 3 % of energy.
+// The shift of the level set moves 2 % of the liquid in 2D, and energy rises by 1.4 %.
 TEST_CASE("a dam break into gas keeps its volume to rounding and gains no energy", "[volumes]") {
   for (const int dim : {2, 3}) {
     const Formula phi = dim == 2 ? "max(x-0.4,y-0.5)" : "max(x-0.4,max(y-0.5,z-0.6))";
     const Run r = run(under_gas(dim, dim == 2 ? 48 : 16, phi), 0.8);
     WARN(dim << "D: spilled " << r.spilled << ", most energy " << r.most / r.start - 1 << " above the start");
-    CHECK(r.spilled < (dim == 2 ? 0.01 : 0.05));  // SPILLED; in 3D few cells, which jets fill in part
+    CHECK(r.spilled < (dim == 2 ? 0.01 : 0.05));  // 0.12, 2.5 %; in 3D few cells, which jets fill in part
     CHECK(r.most < r.start * (1 + 1e-3));
   }
 }
