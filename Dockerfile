@@ -14,10 +14,10 @@ RUN . tools/setup.sh && mkdir -p build && configure -DSEICHE_TESTS=OFF \
 
 # The package names what the program needs, so no second list can grow old.
 FROM debian:12
-COPY --from=build /source/build/release/packages/seiche_*.deb /tmp/
+COPY --from=build /source/build/release/packages/seiche_*.deb /packages/
 RUN apt-get update \
-  && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /tmp/seiche_*.deb ffmpeg \
-  && rm -rf /tmp/seiche_*.deb /var/lib/apt/lists/* \
+  && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /packages/seiche_*.deb ffmpeg \
+  && rm -rf /packages /var/lib/apt/lists/* \
   && useradd --create-home seiche && install -d -o seiche -g seiche /work
 # Containers without ptrace: ranks do not read each other's memory (docs/building.md, MPI).
 ENV OMPI_MCA_btl_vader_single_copy_mechanism=none

@@ -594,7 +594,7 @@ def volumes_beside_post_agree(bench):
 
 
 def volumes_ranks_agree_3d(bench):
-    """The same in 3D."""
+    """A dam break with volumes in cells in 3D, on 1, 2 and 3 ranks."""
     ranks_agree(bench, DAM_IN_CELLS_3D, (2, 3))
 
 

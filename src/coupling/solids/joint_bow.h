@@ -24,7 +24,7 @@ class JointBow {
   bool empty() const { return !any_; }
   // Impulses of the last interval's bow and of gravity's, which the solve does not change.
   Eigen::VectorXd given() const;
-  // Those of the coming interval by the velocities last followed.
+  // Impulses of the coming interval by the velocities last followed.
   const Eigen::VectorXd& impulse() const { return impulse_; }
   // Sets the bow of the coming interval from velocities v. Returns the change of impulse().
   Eigen::VectorXd follow(const Eigen::VectorXd& v);

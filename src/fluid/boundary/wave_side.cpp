@@ -41,7 +41,7 @@ double WaveSide::growth(double t) const {
   return t < ramp_ ? 0.5 - 0.5 * std::cos(M_PI * t / ramp_) : 1;
 }
 
-// What waves carry along grows as the square of their height.
+// The drift of waves grows as the square of their height.
 double WaveSide::velocity(int component, const Vec3& x, double t) const {
   const double s = direction_.dot(x - origin_), z = above_rest(x), r = growth(t);
   if (r == 0) return 0;

@@ -10,7 +10,7 @@ struct SideWavesSpec;
 
 class WaveSide {
  public:
-  // Of the side (0 lower, 1 upper) across an axis. Gravity (m/s^2) lies along another axis.
+  // `side`: 0 lower, 1 upper, across `axis`. Gravity (m/s^2) lies along another axis.
   WaveSide(const SideWavesSpec& spec, const DomainSpec& domain, int axis, int side, const Vec3& gravity);
 
   // Component of the velocity of the waves that enter, at x and t, m/s.

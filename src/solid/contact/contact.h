@@ -86,7 +86,7 @@ struct ContactReport {
   FrictionState friction = FrictionState::none;
   std::vector<BodyImpulse> impulses;  // from contact, one a body
   std::vector<PairImpulse> pairs;     // of pairs of bodies that do not deform, or of such a body and a wall
-  // Of contact, friction and potential in Newton's last iteration, this rank's columns. Empty: none.
+  // Second derivatives of contact, friction and potential in Newton's last iteration, this rank's columns. Empty: none.
   Eigen::SparseMatrix<double> hessian = {};
 };
 

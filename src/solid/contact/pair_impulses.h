@@ -4,7 +4,7 @@
 
 namespace seiche::contact {
 
-// Those of bodies that do not deform, of each pair of primitives within reach.
+// Impulses of bodies that do not deform, one for each pair of primitives within reach.
 template <int Dim>
 std::vector<PairImpulse> pair_impulses(const Scene<Dim>& scene, const Placement<Dim>& at,
                                        const std::vector<Candidate>& pairs, const Weights& weights);
