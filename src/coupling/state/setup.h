@@ -1,5 +1,6 @@
 #pragma once
 // The scene as the simulation uses it, fixed for the run.
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -44,7 +45,9 @@ struct Setup {
   // True if the liquid's volume is a field of its own (State::liquid), not kept by a shift of the level set.
   bool tracks_volume() const {
     if (fluids.liquid.volume != VolumeKeeping::automatic) return fluids.liquid.volume == VolumeKeeping::in_cells;
-    return fluids.has_prescribed_flow() && sources.empty() && drains.empty() && !domain.sides.any_inflow();
+    if (fluids.has_prescribed_flow()) return sources.empty() && drains.empty() && !domain.sides.any_inflow();
+    return fluids.has_gas() && !fluids.has_surface_tension() &&
+           std::none_of(solids.bodies.begin(), solids.bodies.end(), [](const auto& body) { return body.is_thin(); });
   }
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }

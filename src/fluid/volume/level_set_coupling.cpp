@@ -39,11 +39,11 @@ double shift_at(const Layout<Dim>& layout, const Difference<Dim>& d, const CellF
   return weight > 0 ? sum / weight : 0;
 }
 
-// Share of the shift that the level set takes in a step. All of a small shift would roughen it: curvature loses
-// eightfold.
+// Share of the shift that the level set takes in a step. Small shifts are noise of both: phi that followed them would
+// be rough, and curvature, waves and corners worse.
 double gain_of(double shift) {
-  constexpr double slow = 0.1, small = 0.02, large = 0.1;
-  return slow + (1 - slow) * std::clamp((std::abs(shift) - small) / (large - small), 0.0, 1.0);
+  constexpr double small = 0.01, large = 0.1;
+  return std::clamp((std::abs(shift) - small) / (large - small), 0.0, 1.0);
 }
 
 // Moves phi by the mean shift of the surface near each cell. Returns the volume it was moved by, in cells.

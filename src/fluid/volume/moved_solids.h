@@ -9,9 +9,9 @@ namespace seiche {
 
 // Empties cells that solids have covered, and evens out the excess (V - K)/K of full cells near those whose room
 // changed. phi (m) tells which are full: they lie deep in the liquid. Moves nothing between others. Ghosts must be
-// filled, and are. Collective.
+// filled, and are. `before`: shares at the start of the step. Collective.
 template <int Dim>
 void follow_moved_solids(const Layout<Dim>& layout, const Halo<Dim>& halo, const CellField<Dim>& phi,
-                         const Ledger<Dim>& ledger, CellField<Dim>& share);
+                         const Ledger<Dim>& ledger, const CellField<Dim>& before, CellField<Dim>& share);
 
 }  // namespace seiche

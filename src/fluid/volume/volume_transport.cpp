@@ -226,8 +226,8 @@ int cells_of_paths(const Layout<Dim>& layout, const Communicator& ranks, const F
 // One part of a step. What is beyond the room of cells is handed on at its end, where solids are known to be.
 template <int Dim>
 VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                      const FrozenFlow<Dim>& flow, const CellField<Dim>& phi, const Ledger<Dim>& ledger, bool is_last,
-                      CellField<Dim>& share) {
+                      const FrozenFlow<Dim>& flow, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
+                      const CellField<Dim>& start, bool is_last, CellField<Dim>& share) {
   const CountedShares<Dim> counted(layout, ledger, phi, share, flow.velocity.fed);
   const LiquidInCells<Dim> liquid(layout, phi, counted, ledger.divergence == Divergence::stays);
   FaceField<Dim> flux = fluxes(layout, ledger.room, flow, liquid, counted);
@@ -249,7 +249,8 @@ VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Co
   std::array<double, 3> sums{entering(layout, flux), swollen, brought};
   ranks.global_sum(sums);
   const bool hands_on = is_last || !ledger.has_moved();
-  return {sums[0], sums[1], sums[2], hands_on ? hand_on_excess(layout, halo, ranks, phi, ledger, share) : Spill{}, 0};
+  return {sums[0], sums[1], sums[2],
+          hands_on ? hand_on_excess(layout, halo, ranks, phi, ledger, start, share) : Spill{}, 0};
 }
 
 }  // namespace
@@ -263,6 +264,7 @@ VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const 
   CellField<Dim, char> fed;
   if (!flow.fed.empty()) fed = CellField<Dim, char>(layout);
   for (const Site c : flow.fed) fed[c] = 1;
+  const CellField<Dim> start = ledger.has_moved() ? share : CellField<Dim>();
   VolumeStep all;
   for (int parts = 1, done = 0; done < parts;) {
     const double part = dt / parts;
@@ -276,7 +278,7 @@ VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const 
       parts *= 2;
       continue;
     }
-    all += carry_part(layout, halo, ranks, {flow, part, 1.0 / parts, near, origins, fed}, phi, ledger,
+    all += carry_part(layout, halo, ranks, {flow, part, 1.0 / parts, near, origins, fed}, phi, ledger, start,
                       done + 1 == parts, share);
     all.too_far += too_far;
     ++done;
