@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <cstdlib>
 #include <optional>
 
 #include "base/error.h"
@@ -86,26 +85,10 @@ py::tuple mesh_of(const SurfaceMesh& mesh) {
                         flat ? triangles_of(mesh.segments).cast<py::object>() : triangles_of(mesh.triangles));
 }
 
-// Columns of a table as a dictionary, from its header and a row as text.
-py::dict table_row(const std::string& header, const std::string& row) {
-  py::dict values;
-  std::size_t h = 0, r = 0;
-  while (h < header.size() && r < row.size()) {
-    const std::size_t h_end = std::min(header.find_first_of(",\n", h), header.size());
-    const std::size_t r_end = std::min(row.find_first_of(",\n", r), row.size());
-    const std::string name = header.substr(h, h_end - h), text = row.substr(r, r_end - r);
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    if (text.empty())
-      values[py::str(name)] = py::none();
-    else if (*end != '\0')
-      values[py::str(name)] = text;
-    else
-      values[py::str(name)] = number;
-    h = h_end + 1;
-    r = r_end + 1;
-  }
-  return values;
+// Columns of a table as a dictionary of floating-point numbers.
+void add_columns(const std::vector<TableColumn>& row, py::dict& values) {
+  for (const TableColumn& column : row)
+    values[column.name] = std::visit([](auto value) { return double(value); }, column.value);
 }
 
 py::dict solid_of(const SolidState& s) {
@@ -161,7 +144,11 @@ class PySimulation {
 
   double time() const { return simulation_->time(); }
   std::int64_t steps() const { return simulation_->step_count(); }
-  py::dict stats() const { return table_row(stats_header(), stats_row(simulation_->stats())); }
+  py::dict stats() const {
+    py::dict row;
+    add_columns(columns_of(simulation_->stats()), row);
+    return row;
+  }
 
   // Signals and the interpreter's lock stay with other threads while a step runs.
   void step(std::optional<double> until) {
@@ -190,8 +177,13 @@ class PySimulation {
 
   py::dict joints() const {
     py::dict all;
-    for (const JointReport& joint : simulation_->joints())
-      all[py::str(joint.name)] = table_row(joints_header(), joints_row(time(), joint));
+    for (const JointReport& joint : simulation_->joints()) {
+      py::dict row;
+      row["time"] = time();
+      row["name"] = joint.name;
+      add_columns(columns_of(joint), row);
+      all[py::str(joint.name)] = row;
+    }
     return all;
   }
 
