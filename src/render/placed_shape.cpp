@@ -60,14 +60,26 @@ RestBox<Dim> box_at_rest(const LoadedFrame& frame, int solid, const PlacedShape<
   return box;
 }
 
-// The surface at rest; closed, facing outwards. h: m, of a cell of the frame. Empty if it would be no finer than that.
+// The box with room for edges that the frame's cells cut off. What stands still ends beyond the domain as in the frame.
+template <int Dim>
+RestBox<Dim> with_room(RestBox<Dim> box, const LoadedFrame& frame, bool stands, double h) {
+  constexpr double room = 2, beyond = 1.5;  // cells; contact_surface() goes a little further
+  box.lower.array() -= room * h, box.upper.array() += room * h;
+  for (int a = 0; a < Dim && stands; ++a) {
+    box.lower[a] = std::max(box.lower[a], frame.domain.lower[a] - beyond * h);
+    box.upper[a] = std::min(box.upper[a], frame.domain.upper[a] + beyond * h);
+  }
+  return box;
+}
+
+// The surface at rest within a box; closed, facing outwards. h: m, of a cell of the frame. Empty if it would be no
+// finer than that.
 template <int Dim>
 SurfaceMesh surface_at_rest(const ShapeSpec& spec, const RestBox<Dim>& box, double h) {
-  const Vec<Dim> size = box.upper - box.lower + Vec<Dim>::Constant(4 * h);
+  const Vec<Dim> size = box.upper - box.lower;
   const double spacing = std::max(h / finer<Dim>, std::pow(size.prod() / most_samples, 1.0 / Dim));
   if (Dim == 3 && spacing > 0.7 * h) return {};
-  const Vec<Dim> margin = Vec<Dim>::Constant(2 * h);
-  return contact_surface<Dim>(spec, {spacing, nullptr}, box.lower - margin, box.upper + margin);
+  return contact_surface<Dim>(spec, {spacing, nullptr}, box.lower, box.upper);
 }
 
 template <int Dim>
@@ -112,7 +124,8 @@ template <int Dim>
 void refine_surface(LoadedFrame& frame, const SolidSpec& solid, int n, double h) {
   const PlacedShape<Dim> shape(solid, h / finer<Dim>, frame.time);
   if (!agrees<Dim>(shape, frame.solids, n, h)) return;
-  const SurfaceMesh surface = surface_at_rest<Dim>(solid.shape, box_at_rest<Dim>(frame, n, shape), h);
+  const RestBox<Dim> box = with_room<Dim>(box_at_rest<Dim>(frame, n, shape), frame, !solid.kind.is_prescribed(), h);
+  const SurfaceMesh surface = surface_at_rest<Dim>(solid.shape, box, h);
   if (surface.points.empty()) return;
   remove_solid<Dim>(frame.solids, n);
   add_surface<Dim>(frame.solids, n, surface, shape);
