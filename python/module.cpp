@@ -59,8 +59,15 @@ std::vector<Override> overrides_of(const py::dict& settings) {
   return overrides;
 }
 
+// An array of numbers. The constructor that takes the numbers would make two arrays.
+py::array_t<double> array_of_numbers(const double* values, py::ssize_t count) {
+  py::array_t<double> array(count);
+  std::copy_n(values, count, array.mutable_data());
+  return array;
+}
+
 py::array_t<double> vector_of(const Vec3& v) {
-  return py::array_t<double>(3, v.data());
+  return array_of_numbers(v.data(), 3);
 }
 
 template <std::size_t N>
@@ -95,7 +102,7 @@ py::dict solid_of(const SolidState& s) {
   py::dict solid;
   solid["name"] = s.name;
   solid["position"] = vector_of(s.position);
-  solid["orientation"] = py::array_t<double>(4, s.orientation.data());
+  solid["orientation"] = array_of_numbers(s.orientation.data(), 4);
   solid["velocity"] = vector_of(s.velocity);
   solid["angular_velocity"] = vector_of(s.angular_velocity);
   solid["force"] = vector_of(s.force);
@@ -110,7 +117,7 @@ py::array array_of(const FieldView& view, int dimension) {
   std::vector<py::ssize_t> shape(view.shape.begin(), view.shape.begin() + dimension), strides;
   for (int a = 0; a < dimension; ++a) strides.push_back(py::ssize_t(view.strides[std::size_t(a)] * sizeof(double)));
   py::array_t<double> array(shape, strides, view.first, keeps);
-  array.attr("flags").attr("writeable") = false;
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 

@@ -3,7 +3,9 @@
 
 In place of `xvfb-run -a` where several tests run at once. That script looks for a free number and then starts the
 server, so two of them may take the same one; the display then ends with the other's command. It also waits for ever
-where the server is ready before the script waits. Here the server chooses its number and writes it when it is ready."""
+where the server is ready before the script waits. Here the server chooses its number and writes it when it is ready.
+Nor does it start anew when its last client leaves: ParaView opens a second window at about that time, and would find no
+server then (bad X server connection)."""
 import contextlib
 import os
 import subprocess
@@ -16,7 +18,8 @@ def display():
     """Number of the display of a server that runs until the end of the block."""
     ours, servers = os.pipe()
     with tempfile.TemporaryFile() as said:
-        command = ["Xvfb", "-displayfd", str(servers), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"]
+        command = ["Xvfb", "-displayfd", str(servers), "-screen", "0", "1280x1024x24", "-nolisten", "tcp",
+                   "-noreset"]
         with subprocess.Popen(command, pass_fds=[servers], stdout=said, stderr=said) as server:
             os.close(servers)
             with os.fdopen(ours) as pipe:
