@@ -662,8 +662,10 @@ def waves_ranks_agree_2d(bench):
 
 
 def waves_under_gas_agree(bench):
-    """The same below gas, on 1 and 3 ranks."""
-    ranks_agree(bench, SEA.replace(f"tolerance = {TOLERANCE}", "tolerance = 1e-11") + "[gas]\ndensity = 1.2\n", (3,))
+    """The same below gas, on 1 and 3 ranks, and resumed half-way."""
+    text = SEA.replace(f"tolerance = {TOLERANCE}", "tolerance = 1e-11") + "[gas]\ndensity = 1.2\n"
+    ranks_agree(bench, text, (3,))
+    resumed_ranks_agree(bench, text)
 
 
 def waves_ranks_agree_3d(bench):
