@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <cstdlib>
 #include <optional>
 
 #include "base/error.h"
@@ -60,8 +59,15 @@ std::vector<Override> overrides_of(const py::dict& settings) {
   return overrides;
 }
 
+// An array of numbers. The constructor that takes the numbers would make two arrays.
+py::array_t<double> array_of_numbers(const double* values, py::ssize_t count) {
+  py::array_t<double> array(count);
+  std::copy_n(values, count, array.mutable_data());
+  return array;
+}
+
 py::array_t<double> vector_of(const Vec3& v) {
-  return py::array_t<double>(3, v.data());
+  return array_of_numbers(v.data(), 3);
 }
 
 template <std::size_t N>
@@ -86,33 +92,17 @@ py::tuple mesh_of(const SurfaceMesh& mesh) {
                         flat ? triangles_of(mesh.segments).cast<py::object>() : triangles_of(mesh.triangles));
 }
 
-// Columns of a table as a dictionary, from its header and a row as text.
-py::dict table_row(const std::string& header, const std::string& row) {
-  py::dict values;
-  std::size_t h = 0, r = 0;
-  while (h < header.size() && r < row.size()) {
-    const std::size_t h_end = std::min(header.find_first_of(",\n", h), header.size());
-    const std::size_t r_end = std::min(row.find_first_of(",\n", r), row.size());
-    const std::string name = header.substr(h, h_end - h), text = row.substr(r, r_end - r);
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    if (text.empty())
-      values[py::str(name)] = py::none();
-    else if (*end != '\0')
-      values[py::str(name)] = text;
-    else
-      values[py::str(name)] = number;
-    h = h_end + 1;
-    r = r_end + 1;
-  }
-  return values;
+// Columns of a table as a dictionary of floating-point numbers.
+void add_columns(const std::vector<TableColumn>& row, py::dict& values) {
+  for (const TableColumn& column : row)
+    values[column.name] = std::visit([](auto value) { return double(value); }, column.value);
 }
 
 py::dict solid_of(const SolidState& s) {
   py::dict solid;
   solid["name"] = s.name;
   solid["position"] = vector_of(s.position);
-  solid["orientation"] = py::array_t<double>(4, s.orientation.data());
+  solid["orientation"] = array_of_numbers(s.orientation.data(), 4);
   solid["velocity"] = vector_of(s.velocity);
   solid["angular_velocity"] = vector_of(s.angular_velocity);
   solid["force"] = vector_of(s.force);
@@ -127,7 +117,7 @@ py::array array_of(const FieldView& view, int dimension) {
   std::vector<py::ssize_t> shape(view.shape.begin(), view.shape.begin() + dimension), strides;
   for (int a = 0; a < dimension; ++a) strides.push_back(py::ssize_t(view.strides[std::size_t(a)] * sizeof(double)));
   py::array_t<double> array(shape, strides, view.first, keeps);
-  array.attr("flags").attr("writeable") = false;
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 
@@ -161,7 +151,11 @@ class PySimulation {
 
   double time() const { return simulation_->time(); }
   std::int64_t steps() const { return simulation_->step_count(); }
-  py::dict stats() const { return table_row(stats_header(), stats_row(simulation_->stats())); }
+  py::dict stats() const {
+    py::dict row;
+    add_columns(columns_of(simulation_->stats()), row);
+    return row;
+  }
 
   // Signals and the interpreter's lock stay with other threads while a step runs.
   void step(std::optional<double> until) {
@@ -190,8 +184,13 @@ class PySimulation {
 
   py::dict joints() const {
     py::dict all;
-    for (const JointReport& joint : simulation_->joints())
-      all[py::str(joint.name)] = table_row(joints_header(), joints_row(time(), joint));
+    for (const JointReport& joint : simulation_->joints()) {
+      py::dict row;
+      row["time"] = time();
+      row["name"] = joint.name;
+      add_columns(columns_of(joint), row);
+      all[py::str(joint.name)] = row;
+    }
     return all;
   }
 

@@ -47,15 +47,16 @@ std::string unknown_option(const CLI::App& verb, const std::vector<std::string>&
 
 }  // namespace
 
+std::string explain_unknown_verb(const CLI::App& program, const std::string& name) {
+  const std::vector<std::string> verbs = verbs_of(program);
+  return with_suggestion("verb", name, verbs) + fmt::format("; verbs: {}; see `seiche --help`", fmt::join(verbs, ", "));
+}
+
 std::string describe_mistake(const CLI::App& program, const CLI::ParseError& refusal,
                              const std::vector<std::string>& arguments) {
   const bool has_word = !arguments.empty() && !arguments[0].starts_with("-");
   const CLI::App* verb = has_word ? find_verb(program, arguments[0]) : nullptr;
-  if (has_word && verb == nullptr) {
-    const std::vector<std::string> verbs = verbs_of(program);
-    return with_suggestion("verb", arguments[0], verbs) +
-           fmt::format("; verbs: {}; see `seiche --help`", fmt::join(verbs, ", "));
-  }
+  if (has_word && verb == nullptr) return explain_unknown_verb(program, arguments[0]);
   if (verb != nullptr && dynamic_cast<const CLI::ExtrasError*>(&refusal) != nullptr) {
     const std::string text = unknown_option(*verb, {arguments.begin() + 1, arguments.end()});
     if (!text.empty()) return text;

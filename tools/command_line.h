@@ -11,4 +11,7 @@ namespace seiche {
 std::string describe_mistake(const CLI::App& program, const CLI::ParseError& refusal,
                              const std::vector<std::string>& arguments);
 
+// Says that there is no such verb, with the nearest one and all of them.
+std::string explain_unknown_verb(const CLI::App& program, const std::string& name);
+
 }  // namespace seiche

@@ -1,9 +1,10 @@
-// Verbs for shells and editors: completion, the manual page, the schema of scenes.
+// Verbs that describe the program, for people, shells and editors: help, completion, manual page, schema of scenes.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/version.h"
+#include "command_line.h"
 #include "info/schema.h"
 #include "verbs.h"
 
@@ -130,7 +131,27 @@ void print_on_root(const VerbContext& context, const std::string& text) {
   if (context.ranks.is_root()) fmt::print("{}", text);
 }
 
+// Help of the program, or of a verb. CLI::App::help() of the program would be that of the verb `help`.
+std::string help_on(const CLI::App& program, const std::string& name) {
+  if (name.empty()) return program.get_formatter()->make_help(&program, program.get_name(), CLI::AppFormatMode::Normal);
+  for (const CLI::App* verb : shown_verbs(program))
+    if (verb->get_name() == name) return verb->help(program.get_name());
+  throw Error(ExitCode::bad_input, explain_unknown_verb(program, name));
+}
+
 }  // namespace
+
+void add_help(CLI::App& program, VerbContext& context) {
+  auto* verb = program.add_subcommand("help", "Show the verbs, or the options of one");
+  auto name = std::make_shared<std::string>();
+  verb->add_option("verb", *name, "Verb to explain");
+  verb->callback([name, &program, &context] {
+    context.action = [name, &program, &context] {
+      print_on_root(context, help_on(program, *name));
+      return ExitCode::done;
+    };
+  });
+}
 
 void add_completion(CLI::App& program, VerbContext& context) {
   auto* verb = program.add_subcommand("completion", "Print a completion script for a shell");

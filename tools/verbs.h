@@ -39,6 +39,7 @@ void add_info(CLI::App& program, VerbContext& context);
 void add_render(CLI::App& program, VerbContext& context);
 void add_plot(CLI::App& program, VerbContext& context);
 void add_export(CLI::App& program, VerbContext& context);
+void add_help(CLI::App& program, VerbContext& context);
 void add_completion(CLI::App& program, VerbContext& context);
 void add_manual(CLI::App& program, VerbContext& context);
 void add_schema(CLI::App& program, VerbContext& context);

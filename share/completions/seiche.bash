@@ -1,7 +1,7 @@
 # bash completion of seiche: source <(seiche completion bash)
 _seiche() {
   local word="${COMP_WORDS[COMP_CWORD]}" words=""
-  if [ "$COMP_CWORD" -eq 1 ]; then words="run resume check validate info render plot export init completion manual schema --help --version"; else
+  if [ "$COMP_CWORD" -eq 1 ]; then words="run resume check validate info render plot export init help completion manual schema --help --version"; else
     case "${COMP_WORDS[1]}" in
       run) words="--help --out --overwrite --set --frames --threads --walltime --watchdog --quiet" ;;
       resume) words="--help --end --set --force --frames --threads --walltime --watchdog --quiet" ;;
@@ -12,6 +12,7 @@ _seiche() {
       plot) words="--help --file --columns --names --out --size --log --font" ;;
       export) words="--help --format --frames --out --up" ;;
       init) words="--help --example --list --overwrite" ;;
+      help) words="--help" ;;
       completion) words="--help" ;;
       manual) words="--help" ;;
       schema) words="--help" ;;

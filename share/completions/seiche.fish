@@ -82,6 +82,8 @@ complete -c seiche -n '__fish_seen_subcommand_from init' -l help -d 'Print this 
 complete -c seiche -n '__fish_seen_subcommand_from init' -l example -r -d 'Example that it starts from'
 complete -c seiche -n '__fish_seen_subcommand_from init' -l list -d 'Show the examples and write nothing'
 complete -c seiche -n '__fish_seen_subcommand_from init' -l overwrite -d 'Replace files that are there'
+complete -c seiche -n __fish_use_subcommand -f -a help -d 'Show the verbs, or the options of one'
+complete -c seiche -n '__fish_seen_subcommand_from help' -l help -d 'Print this help message and exit'
 complete -c seiche -n __fish_use_subcommand -f -a completion -d 'Print a completion script for a shell'
 complete -c seiche -n '__fish_seen_subcommand_from completion' -l help -d 'Print this help message and exit'
 complete -c seiche -n __fish_use_subcommand -f -a manual -d 'Print the manual page, for man -l -'

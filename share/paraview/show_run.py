@@ -1,7 +1,7 @@
 """Draws one frame of a run of Seiche with ParaView 5.11: the liquid's surface coloured by speed, and the solids.
 
     seiche export RUN --format xdmf
-    xvfb-run -a pvbatch share/paraview/show_run.py RUN/export/NAME.xdmf picture.png [--frame 12]
+    xvfb-run -a -s -noreset pvbatch share/paraview/show_run.py RUN/export/NAME.xdmf picture.png [--frame 12]
 
 Debian's pvbatch needs a display; xvfb-run makes one. In 3D the surface is the contour 0 of `surface_at_nodes`, in 2D
 what lies below 0."""
@@ -138,8 +138,8 @@ def make_view(size):
 def check_display():
     """Ends with advice where pvbatch would abort."""
     if sys.platform == "linux" and not os.environ.get("DISPLAY") and not os.environ.get("SEICHE_NO_DISPLAY"):
-        raise RunFault("there is no display; run `xvfb-run -a pvbatch ...` (packages xvfb and xauth). Where pvbatch "
-                       "is built to draw without one, set SEICHE_NO_DISPLAY=1")
+        raise RunFault("there is no display; run `xvfb-run -a -s -noreset pvbatch ...` (packages xvfb and xauth). Where "
+                       "pvbatch is built to draw without one, set SEICHE_NO_DISPLAY=1")
 
 
 def draw(options):

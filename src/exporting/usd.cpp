@@ -24,6 +24,13 @@ std::string points_text(const std::vector<Vec3>& points) {
   return closed(std::move(text));
 }
 
+// The box around points, as its two corners.
+std::string extent_text(const std::vector<Vec3>& points) {
+  Vec3 lower = points.front(), upper = lower;
+  for (const Vec3& p : points) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
+  return points_text({lower, upper});
+}
+
 std::string values_text(const mesh::PointAttribute& attribute) {
   std::string text = "[";
   const auto out = std::back_inserter(text);
@@ -109,6 +116,7 @@ void UsdWriter::add_sample(const std::string& name, int frame, const AttributedM
     put(prim, name, "int[] faceVertexCounts", frame, counts_text(prim.triangles.size()));
     put(prim, name, "int[] faceVertexIndices", frame, indices_text(prim.triangles));
   }
+  if (!sample.mesh.points.empty()) put(prim, name, "float3[] extent", frame, extent_text(sample.mesh.points));
   for (const mesh::PointAttribute& attribute : sample.attributes)
     put(prim, name, declaration(attribute), frame, values_text(attribute));
 }
@@ -121,6 +129,7 @@ void UsdWriter::add_body(const std::string& name, const SurfaceMesh& mesh, const
   put(prim, name, "point3f[] points", facts_.first, points_text(mesh.points));
   put(prim, name, "int[] faceVertexCounts", facts_.first, counts_text(mesh.triangles.size()));
   put(prim, name, "int[] faceVertexIndices", facts_.first, indices_text(mesh.triangles));
+  if (!mesh.points.empty()) put(prim, name, "float3[] extent", facts_.first, extent_text(mesh.points));
 }
 
 void UsdWriter::add_pose(const std::string& name, int frame, const Pose& pose) {

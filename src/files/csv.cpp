@@ -11,14 +11,12 @@
 namespace seiche {
 namespace {
 
-using Number = std::variant<double, std::int64_t>;
-struct Column {
-  const char* name;
-  Number value;
-};
+using Column = TableColumn;
+
+}  // namespace
 
 // One table for both header and rows. The documented format fixes the columns up to wall_seconds and their order.
-std::vector<Column> columns(const StepStats& s) {
+std::vector<TableColumn> columns_of(const StepStats& s) {
   return {{"step", s.step},
           {"time", s.time},
           {"dt", s.dt},
@@ -56,7 +54,7 @@ std::vector<Column> columns(const StepStats& s) {
           {"joint_turns", std::int64_t(s.joint_turns)}};
 }
 
-std::vector<Column> columns(const JointReport& j) {
+std::vector<TableColumn> columns_of(const JointReport& j) {
   return {{"q", j.q},
           {"qdot", j.rate},
           {"fx", j.force[0]},
@@ -70,7 +68,9 @@ std::vector<Column> columns(const JointReport& j) {
           {"broken", std::int64_t(j.broken)}};
 }
 
-std::vector<Column> columns(const SolidState& s) {
+namespace {
+
+std::vector<Column> columns_of(const SolidState& s) {
   return {{"x", s.position[0]},
           {"y", s.position[1]},
           {"z", s.position[2]},
@@ -98,7 +98,7 @@ std::vector<Column> columns(const SolidState& s) {
           {"pin_tz", s.pin_torque[2]}};
 }
 
-std::string text_of(const Number& value) {
+std::string text_of(const std::variant<double, std::int64_t>& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
   return fmt::format("{:.17g}", std::get<double>(value));
 }
@@ -134,25 +134,25 @@ std::string first_not_finite(const std::vector<Column>& row) {
 }  // namespace
 
 std::string stats_header() {
-  return joined_names(columns(StepStats{})) + "\n";
+  return joined_names(columns_of(StepStats{})) + "\n";
 }
 std::string stats_row(const StepStats& stats) {
-  return joined_values(columns(stats)) + "\n";
+  return joined_values(columns_of(stats)) + "\n";
 }
 std::string solids_header() {
-  return "time,name," + joined_names(columns(SolidState{})) + "\n";
+  return "time,name," + joined_names(columns_of(SolidState{})) + "\n";
 }
 
 std::string solids_row(double time, const SolidState& solid) {
-  return fmt::format("{:.17g},{},{}\n", time, quoted(solid.name), joined_values(columns(solid)));
+  return fmt::format("{:.17g},{},{}\n", time, quoted(solid.name), joined_values(columns_of(solid)));
 }
 
 std::string joints_header() {
-  return "time,name," + joined_names(columns(JointReport{})) + "\n";
+  return "time,name," + joined_names(columns_of(JointReport{})) + "\n";
 }
 
 std::string joints_row(double time, const JointReport& joint) {
-  return fmt::format("{:.17g},{},{}\n", time, quoted(joint.name), joined_values(columns(joint)));
+  return fmt::format("{:.17g},{},{}\n", time, quoted(joint.name), joined_values(columns_of(joint)));
 }
 
 std::string probes_header() {
@@ -167,14 +167,14 @@ std::string probes_row(double time, const ProbeSample& sample) {
 }
 
 std::string not_finite(const StepStats& stats) {
-  return first_not_finite(columns(stats));
+  return first_not_finite(columns_of(stats));
 }
 std::string not_finite(const SolidState& solid) {
-  return first_not_finite(columns(solid));
+  return first_not_finite(columns_of(solid));
 }
 
 std::string not_finite(const JointReport& joint) {
-  return first_not_finite(columns(joint));
+  return first_not_finite(columns_of(joint));
 }
 
 std::string not_finite(const ProbeSample& sample) {

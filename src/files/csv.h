@@ -1,10 +1,21 @@
 #pragma once
 // Rows of stats.csv, solids.csv, joints.csv and probes.csv. Numbers have 17 digits, so they read back bit for bit.
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "coupling/state/simulation.h"
 
 namespace seiche {
+
+// A column of a table with its value in one row.
+struct TableColumn {
+  const char* name;
+  std::variant<double, std::int64_t> value;
+};
+
+std::vector<TableColumn> columns_of(const StepStats& stats);
+std::vector<TableColumn> columns_of(const JointReport& joint);  // without time and name
 
 std::string stats_header();
 std::string stats_row(const StepStats& stats);

@@ -104,7 +104,7 @@ Plot Studio::plot_of_frame() {
           "the frames have neither a surface nor the field given by --color; render other frames or another --color");
     std::fill(frame.phi->values.begin(), frame.phi->values.end(), -frame.phi->h);
   }
-  refine_outlines(frame, job_.scene.solids);
+  refine_surfaces(frame, job_.scene.solids);
   Plot plot;
   plot.domain = frame.domain;
   plot.phi = *frame.phi;
@@ -132,6 +132,7 @@ Studio::Result Studio::draw_flat(const std::filesystem::path& file) {
 
 void Studio::set_stage() {
   LoadedFrame& frame = *frame_;
+  refine_surfaces(frame, job_.scene.solids);
   clip_to_containers(frame, job_.scene.solids);
   stage_ = Stage{};
   stage_.domain = frame.domain;

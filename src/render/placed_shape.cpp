@@ -6,88 +6,136 @@
 #include "base/error.h"
 #include "base/expression.h"
 #include "base/solid_spec.h"
+#include "geometry/mesh/facets.h"
 #include "geometry/shapes/closed_surface.h"
 #include "render/frame.h"
 
 namespace seiche::render {
 namespace {
 
-constexpr double finer = 8;             // cells of the contours of formulas, in one of the frame
-constexpr double most_samples = 1.0e6;  // of a contour
+template <int Dim>
+constexpr double finer = Dim == 2 ? 8 : 4;  // cells of the contours of formulas, in one of the frame
+constexpr double most_samples = 1.0e6;      // of a contour
 
+template <int Dim>
+std::vector<std::array<int, Dim>>& facets_in(SurfaceMesh& mesh) {
+  if constexpr (Dim == 2)
+    return mesh.segments;
+  else
+    return mesh.triangles;
+}
+
+template <int Dim>
 struct RestBox {
-  Vec<2> lower, upper;
+  Vec<Dim> lower, upper;
 };
 
+// Calls visit(facet) for each facet of a solid that the frame has.
+template <int Dim, class Visit>
+void visit_facets(const SolidMesh& solids, int solid, const Visit& visit) {
+  const auto& facets = facets_of<Dim>(solids.mesh);
+  for (std::size_t i = 0; i < facets.size() && i < solids.solid.size(); ++i)
+    if (solids.solid[i] == solid) visit(facets[i]);
+}
+
 // Box in the rest pose around the part of a solid that the frame shows.
-RestBox box_at_rest(const LoadedFrame& frame, int solid, const PlacedShape<2>& shape) {
+template <int Dim>
+RestBox<Dim> box_at_rest(const LoadedFrame& frame, int solid, const PlacedShape<Dim>& shape) {
   std::vector<Vec3> points;
   bool corner_inside = false;
-  for (int c = 0; c < 4; ++c) {
-    points.emplace_back((c & 1 ? frame.domain.upper : frame.domain.lower)[0],
-                        (c & 2 ? frame.domain.upper : frame.domain.lower)[1], 0);
-    corner_inside = corner_inside || shape(points.back()) < 0;
+  for (int c = 0; c < 1 << Dim; ++c) {
+    Vec3 corner = Vec3::Zero();
+    for (int a = 0; a < Dim; ++a) corner[a] = ((c >> a) & 1 ? frame.domain.upper : frame.domain.lower)[a];
+    points.push_back(corner);
+    corner_inside = corner_inside || shape(corner) < 0;
   }
   if (!corner_inside) points.clear();
-  const SolidMesh& solids = frame.solids;
-  for (std::size_t i = 0; i < solids.mesh.segments.size() && i < solids.solid.size(); ++i)
-    if (solids.solid[i] == solid) points.push_back(solids.mesh.points[std::size_t(solids.mesh.segments[i][0])]);
-  RestBox box{Vec<2>::Constant(1e300), Vec<2>::Constant(-1e300)};
+  visit_facets<Dim>(frame.solids, solid,
+                    [&](const auto& facet) { points.push_back(frame.solids.mesh.points[std::size_t(facet[0])]); });
+  RestBox<Dim> box{Vec<Dim>::Constant(1e300), Vec<Dim>::Constant(-1e300)};
   for (const Vec3& point : points) {
-    const Vec<2> rest = shape.to_rest(point).head<2>();
+    const Vec<Dim> rest = truncate<Dim>(shape.to_rest(point));
     box.lower = box.lower.cwiseMin(rest), box.upper = box.upper.cwiseMax(rest);
   }
   return box;
 }
 
-// The outline at rest; closed, with the inside to the left.
-SurfaceMesh outline_of(const ShapeSpec& spec, const RestBox& box, double h) {
-  const Vec<2> size = box.upper - box.lower + Vec<2>::Constant(4 * h);
-  const double spacing = std::max(h / finer, std::sqrt(size[0] * size[1] / most_samples));
-  const Vec<2> margin = Vec<2>::Constant(2 * h);
-  return contact_surface<2>(spec, {spacing, nullptr}, box.lower - margin, box.upper + margin);
-}
-
-bool agrees(const PlacedShape<2>& shape, const SolidMesh& solids, int solid, double h) {
-  for (std::size_t i = 0; i < solids.mesh.segments.size() && i < solids.solid.size(); ++i) {
-    if (solids.solid[i] != solid) continue;
-    for (const int point : solids.mesh.segments[i])
-      if (!(std::abs(shape(solids.mesh.points[std::size_t(point)])) < h)) return false;
+// The box with room for edges that the frame's cells cut off. What stands still ends beyond the domain as in the frame.
+template <int Dim>
+RestBox<Dim> with_room(RestBox<Dim> box, const LoadedFrame& frame, bool stands, double h) {
+  constexpr double room = 2, beyond = 1.5;  // cells; contact_surface() goes a little further
+  box.lower.array() -= room * h, box.upper.array() += room * h;
+  for (int a = 0; a < Dim && stands; ++a) {
+    box.lower[a] = std::max(box.lower[a], frame.domain.lower[a] - beyond * h);
+    box.upper[a] = std::min(box.upper[a], frame.domain.upper[a] + beyond * h);
   }
-  return true;
+  return box;
 }
 
-bool has_segments(const SolidMesh& solids, int solid) {
+// The surface at rest within a box; closed, facing outwards. h: m, of a cell of the frame. Empty if it would be no
+// finer than that.
+template <int Dim>
+SurfaceMesh surface_at_rest(const ShapeSpec& spec, const RestBox<Dim>& box, double h) {
+  const Vec<Dim> size = box.upper - box.lower;
+  const double spacing = std::max(h / finer<Dim>, std::pow(size.prod() / most_samples, 1.0 / Dim));
+  if (Dim == 3 && spacing > 0.7 * h) return {};
+  return contact_surface<Dim>(spec, {spacing, nullptr}, box.lower, box.upper);
+}
+
+template <int Dim>
+bool agrees(const PlacedShape<Dim>& shape, const SolidMesh& solids, int solid, double h) {
+  bool all = true;
+  visit_facets<Dim>(solids, solid, [&](const auto& facet) {
+    for (const int point : facet) all = all && std::abs(shape(solids.mesh.points[std::size_t(point)])) < h;
+  });
+  return all;
+}
+
+bool has_facets(const SolidMesh& solids, int solid) {
   return std::find(solids.solid.begin(), solids.solid.end(), solid) != solids.solid.end();
 }
 
-// The frame's solids without the segments of one.
+// The frame's solids without the facets of one.
+template <int Dim>
 void remove_solid(SolidMesh& solids, int solid) {
   SolidMesh kept;
   kept.mesh.points = solids.mesh.points;
-  for (std::size_t i = 0; i < solids.mesh.segments.size() && i < solids.solid.size(); ++i) {
+  const auto& facets = facets_of<Dim>(solids.mesh);
+  for (std::size_t i = 0; i < facets.size() && i < solids.solid.size(); ++i) {
     if (solids.solid[i] == solid) continue;
-    kept.mesh.segments.push_back(solids.mesh.segments[i]);
+    facets_in<Dim>(kept.mesh).push_back(facets[i]);
     kept.solid.push_back(solids.solid[i]);
   }
   solids = std::move(kept);
 }
 
-void add_outline(SolidMesh& solids, int solid, const SurfaceMesh& outline, const PlacedShape<2>& shape) {
+template <int Dim>
+void add_surface(SolidMesh& solids, int solid, const SurfaceMesh& surface, const PlacedShape<Dim>& shape) {
   const int first = int(solids.mesh.points.size());
-  for (const Vec3& point : outline.points) solids.mesh.points.push_back(shape.place(point));
-  for (const auto& [a, b] : outline.segments) {
-    solids.mesh.segments.push_back({first + a, first + b});
+  for (const Vec3& point : surface.points) solids.mesh.points.push_back(shape.place(point));
+  for (std::array<int, Dim> facet : facets_of<Dim>(surface)) {
+    for (int& point : facet) point += first;
+    facets_in<Dim>(solids.mesh).push_back(facet);
     solids.solid.push_back(solid);
   }
 }
 
-void refine_outline(LoadedFrame& frame, const SolidSpec& solid, int n, double h) {
-  const PlacedShape<2> shape(solid, h / finer, frame.time);
-  if (!agrees(shape, frame.solids, n, h)) return;
-  const SurfaceMesh outline = outline_of(solid.shape, box_at_rest(frame, n, shape), h);
-  remove_solid(frame.solids, n);
-  add_outline(frame.solids, n, outline, shape);
+template <int Dim>
+void refine_surface(LoadedFrame& frame, const SolidSpec& solid, int n, double h) {
+  const PlacedShape<Dim> shape(solid, h / finer<Dim>, frame.time);
+  if (!agrees<Dim>(shape, frame.solids, n, h)) return;
+  const RestBox<Dim> box = with_room<Dim>(box_at_rest<Dim>(frame, n, shape), frame, !solid.kind.is_prescribed(), h);
+  const SurfaceMesh surface = surface_at_rest<Dim>(solid.shape, box, h);
+  if (surface.points.empty()) return;
+  remove_solid<Dim>(frame.solids, n);
+  add_surface<Dim>(frame.solids, n, surface, shape);
+}
+
+// True if the scene tells the surface of a solid better than the frame. In 3D that is so of formulas and level sets.
+bool is_refinable(const SolidSpec& solid, int dimension) {
+  const std::string& kind = solid.shape.kind;
+  const bool is_sampled = kind == "expression" || kind == "level_set";
+  return !solid.kind.is_free() && !solid.kind.follows_meshes && (dimension == 2 || (is_sampled && !solid.shape.invert));
 }
 
 }  // namespace
@@ -109,14 +157,14 @@ double PlacedShape<Dim>::operator()(const Vec3& x) const {
 template class PlacedShape<2>;
 template class PlacedShape<3>;
 
-void refine_outlines(LoadedFrame& frame, const std::vector<SolidSpec>& solids) {
-  if (frame.dimension != 2 || frame.solids.mesh.segments.empty()) return;
+void refine_surfaces(LoadedFrame& frame, const std::vector<SolidSpec>& solids) {
   const double h = frame.phi ? frame.phi->h : frame.quantity ? frame.quantity->h : 0;
   for (std::size_t n = 0; n < solids.size() && h > 0; ++n) {
-    if (solids[n].kind.is_free() || !has_segments(frame.solids, int(n))) continue;
+    if (!is_refinable(solids[n], frame.dimension) || !has_facets(frame.solids, int(n))) continue;
     try {
-      refine_outline(frame, solids[n], int(n), h);
-    } catch (const Error&) {  // such as a file of the shape that is gone: the frame's outline stays
+      frame.dimension == 2 ? refine_surface<2>(frame, solids[n], int(n), h)
+                           : refine_surface<3>(frame, solids[n], int(n), h);
+    } catch (const Error&) {  // such as a file of the shape that is gone: the frame's surface stays
     }
   }
 }

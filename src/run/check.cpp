@@ -67,7 +67,7 @@ void verify_shapes(const Scene& scene, bool set_up, Verified& found) {
   for (const ShapeSpec* shape : shapes_of(scene, set_up)) make_shape<Dim>(*shape, options);
   for (const SolidSpec& solid : scene.solids) {
     if (solid.kind.has_elements && !set_up) verify_elastic<Dim>(scene, solid, options, found);
-    if (solid.kind.follows_meshes && !set_up) MeshSequence(solid.shape, solid.sequence, options);
+    if (solid.kind.follows_meshes && !set_up) MeshSequence(Dim, solid.shape, solid.sequence, options);
   }
 }
 

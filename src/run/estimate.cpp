@@ -10,6 +10,7 @@
 #include "base/scene.h"
 #include "coupling/state/memory_model.h"
 #include "files/vtk.h"
+#include "run/expected_speed.h"
 #include "run/loop.h"
 #include "run/memory.h"
 #include "run/progress.h"
@@ -102,6 +103,7 @@ void measure_solids_at_start(const Scene& scene, const Simulation& simulation, R
     size.nodes += nodes;
     if (!volumes[k].elements.empty()) size.factors += factor_bytes(scene.dimension, int(nodes) * scene.dimension);
   }
+  size.solid_speed = speed_of_kinematic_solids(scene, surfaces);
   size.solid_bytes = bytes_of_solids(scene, surfaces, volumes, simulation);
 }
 
@@ -113,8 +115,8 @@ RunSize measure_size(const Scene& scene, const Simulation& simulation, const Com
   size.cells = double(n[0]) * n[1] * n[2];
   const CellSums mine = sum_cells(scene, simulation);
   if (ranks.is_root()) measure_solids_at_start(scene, simulation, size);
-  std::array<double, 9> sums{mine.fluid, mine.near,    mine.band,   mine.liquid,     mine.height,
-                             size.nodes, size.factors, size.facets, size.solid_bytes};
+  std::array<double, 10> sums{mine.fluid, mine.near,    mine.band,   mine.liquid,      mine.height,
+                              size.nodes, size.factors, size.facets, size.solid_bytes, size.solid_speed};
   ranks.global_sum(sums);
   size.fluid = sums[0];
   size.near = sums[1];
@@ -125,19 +127,29 @@ RunSize measure_size(const Scene& scene, const Simulation& simulation, const Com
   size.factors = sums[6];
   size.facets = sums[7];
   size.solid_bytes = sums[8];
+  size.solid_speed = sums[9];
+  size.feed_speed = speed_of_feeds(scene);
   size.speed = simulation.stats().max_speed;
   return size;
 }
 
 namespace {
 
+// True if steps are planned: each a whole share of the time to the next frame, and at most a quarter longer than the
+// one before (step_size.cpp).
+bool plans_steps(const Scene& scene) {
+  return std::any_of(scene.solids.begin(), scene.solids.end(), [](const SolidSpec& s) { return s.kind.has_elements; });
+}
+
 // Longest step that the flow allows, s: cfl h / speed, and stable waves of gravity and tension (step_size.cpp).
 double expected_step(const Scene& scene, const RunSize& size) {
   if (scene.time.fixed_step) return *scene.time.fixed_step;
   const double h = scene.domain.cell_size, g = Gravity(scene.gravity).largest(0, scene.time.end);
-  const double speed = std::max(size.speed, 2 * std::sqrt(2 * g * size.fall));  // of jets: twice the mean
+  const double speed =
+      std::max({size.speed, size.feed_speed, 2 * std::sqrt(2 * g * size.fall)});  // jets: twice the mean
   double dt = 1 / scene.time.frame_rate;
   if (speed > 0) dt = std::min(dt, scene.time.cfl * h / speed);
+  if (size.solid_speed > 0) dt = std::min(dt, h / size.solid_speed);
   if (g > 0) dt = std::min(dt, 1.5 * std::sqrt(h / (pi * g)));
   if (scene.liquid.surface_tension > 0 && scene.liquid.tension_scheme == TensionScheme::explicit_steps)
     dt = std::min(dt, std::sqrt(scene.liquid.density * h * h * h / (2 * pi * scene.liquid.surface_tension)));
@@ -145,10 +157,24 @@ double expected_step(const Scene& scene, const RunSize& size) {
   return dt;
 }
 
+// Steps between two frames where steps are planned. They begin with a short one, sqrt(h/(8 g)), and grow by a quarter
+// at most, so that from four to three steps a frame there is no way.
+double planned_steps_a_frame(const Scene& scene, double dt) {
+  constexpr double margin = 0.9, most_that_stay = 4;
+  const double h = scene.domain.cell_size, g = Gravity(scene.gravity).largest(0, scene.time.end);
+  const double wanted = std::ceil(1 / (scene.time.frame_rate * margin * dt) - 1e-9);
+  if (g == 0) return wanted;
+  const double at_first = std::ceil(1 / scene.time.frame_rate / std::sqrt(h / (8 * g)) - 1e-9);
+  return std::max(wanted, std::min(at_first, most_that_stay));
+}
+
 // Number of steps; each frame's time ends one.
 double expected_steps(const Scene& scene, double dt) {
   const double frames = std::max(0, last_frame(scene.time));
-  return std::max(std::ceil(scene.time.end / dt - 1e-9), frames * std::ceil(1 / (scene.time.frame_rate * dt) - 1e-9));
+  const double a_frame = plans_steps(scene) && !scene.time.fixed_step
+                             ? planned_steps_a_frame(scene, dt)
+                             : std::ceil(1 / (scene.time.frame_rate * dt) - 1e-9);
+  return std::max(std::ceil(scene.time.end / dt - 1e-9), frames * a_frame);
 }
 
 // Coefficients, in bytes, from runs of scenes/ and benchmarks/cases.py (docs/performance.md, "Estimates").

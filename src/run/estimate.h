@@ -23,6 +23,8 @@ struct RunSize {
   double solid_bytes = 0;  // files of solids in one frame
   double fall = 0;         // mean height that liquid has to fall until it lies flat, m
   double speed = 0;        // of the liquid, m/s
+  double solid_speed = 0;  // of kinematic solids, m/s
+  double feed_speed = 0;   // of liquid that enters, m/s
 };
 
 // Collective; equal on all ranks.

@@ -36,9 +36,11 @@ std::string remedy(const DomainSpec& domain, double longest, double width, doubl
 }
 
 // Empty if the width is plausible.
-std::string fault(const DomainSpec& domain, const ShapeSpec& shape, const std::string& name) {
+std::string fault(const Scene& scene, const ShapeSpec& shape, const std::string& name) {
+  const DomainSpec& domain = scene.domain;
   const double longest = (domain.upper - domain.lower).maxCoeff(), scale = shape.transform.scale;
-  const double width = scale * mesh_extent(shape.file).maxCoeff();
+  const Vec3 extent = scene.dimension == 2 ? polyline_extent(shape.file) : mesh_extent(shape.file);
+  const double width = scale * extent.maxCoeff();
   if (width <= too_wide * longest) return "";
   return fmt::format("{}: {} is {:.3g} m wide, the domain {:.3g} m; {}", shape.where, name, width, longest,
                      remedy(domain, longest, width, scale));
@@ -51,7 +53,7 @@ std::vector<std::string> check_mesh_extents(const Scene& scene) {
   std::string faults;
   const auto look_at = [&](const ShapeSpec& shape, const std::string& name, bool refuse) {
     if (!is_surface_file(shape)) return;
-    const std::string text = fault(scene.domain, shape, name);
+    const std::string text = fault(scene, shape, name);
     if (text.empty()) return;
     if (refuse) faults += (faults.empty() ? "" : "\n") + text;
     if (!refuse) notes.push_back(text);

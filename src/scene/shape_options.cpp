@@ -126,8 +126,10 @@ std::vector<Key<ShapeSpec>> geometry_keys() {
       geometry_key({"mesh", "level_set", "height_map"},
                    {.key = "file",
                     .type = T::file,
-                    .doc = "mesh: closed triangles (.obj, .ply, .stl), for elastic solids also elements (.msh, .vtu, "
-                           ".mesh); level_set: a frame of Seiche (.vdb); height_map: a grey picture of 8 or 16 bits "
+                    .doc = "mesh: closed triangles (.obj, .ply, .stl), in 2D closed outlines (.csv, .txt: x and y of a "
+                           "point a row, an empty line between outlines; .obj: lines), for elastic solids also "
+                           "elements (.msh, .vtu, .mesh); level_set: a frame of Seiche (.vdb); height_map: a grey "
+                           "picture of 8 or 16 bits "
                            "(.png), or numbers, a "
                            "row a line (.csv, .txt, .asc), as seen from above with the first axis across up to the "
                            "right; 2D: one row"},
@@ -162,22 +164,17 @@ void check_extension(SceneContext& c, const Place& p, const ShapeSpec& shape, Me
     c.report(path, line,
              fmt::format("{}: a height_map is read from .png, .csv, .txt or .asc, not '{}'", path,
                          shape.file.filename().string()));
-  if (shape.kind != "mesh" || is_any({".obj", ".ply", ".stl"})) return;
+  const bool flat = c.dimension == 2;
+  if (shape.kind != "mesh" || (flat ? is_any({".csv", ".txt", ".obj"}) : is_any({".obj", ".ply", ".stl"}))) return;
   const bool elements = holds_elements(shape.file);
   if (elements && files == MeshFiles::surfaces_and_elements) return;
   c.report(path, line,
-           fmt::format("{}: {}; a mesh is a closed triangle surface in .obj, .ply or .stl{}", path,
-                       elements ? "tetrahedra are for elastic solids"
+           fmt::format("{}: {}; {}{}", path,
+                       elements ? "elements are for elastic solids"
                                 : "cannot read a mesh from '" + shape.file.filename().string() + "'",
+                       flat ? "a mesh in 2D is a closed outline: points a row in .csv or .txt, or lines in .obj"
+                            : "a mesh is a closed triangle surface in .obj, .ply or .stl",
                        files == MeshFiles::surfaces ? "" : ", or elements in .msh, .vtu or .mesh"));
-}
-
-// 2D has no triangle surfaces, but elements.
-void check_flat_mesh(SceneContext& c, const Place& p, const ShapeSpec& shape, MeshFiles files) {
-  const bool may_hold_elements = files == MeshFiles::surfaces_and_elements;
-  if (may_hold_elements && (shape.file.empty() || holds_elements(shape.file))) return;
-  c.report(p, fmt::format("{}: triangle meshes are for dimension = 3; in 2D use {}an expression or a level_set",
-                          section_title(p.path), may_hold_elements ? "elements in .msh, .vtu or .mesh, " : ""));
 }
 
 void check_extent(SceneContext& c, const Place& p, const ShapeSpec& shape) {
@@ -203,7 +200,6 @@ void check_axis(SceneContext& c, const Place& p, const Vec3& axis) {
 
 void finish_shape(SceneContext& c, const Place& p, ShapeSpec& shape, MeshFiles files) {
   shape.where = c.where(p.node->line);
-  if (shape.kind == "mesh" && c.dimension == 2) check_flat_mesh(c, p, shape, files);
   if (!c.clean(p.path) || c.dimension == 0) return;
   if (shape.kind == "box" || shape.kind == "height_map") check_extent(c, p, shape);
   if (c.dimension == 2 && shape.up && shape.up->back() == 'z')

@@ -112,8 +112,9 @@ class Expansion {
 
 // Features that have no place beside waves at sides, or "".
 std::string excluded_by_waves(const Scene& scene) {
-  if (scene.gas.present)
-    return "waves at sides are for liquid alone: gas could not leave as the level rises; leave [gas] out";
+  if (scene.gas.present && !scene.gas.flows())
+    return "waves at sides change the volume of enclosed air, which bubbles = \"volume_conserving\" keeps; take "
+           "\"resolved\", or leave [gas] out";
   if (scene.liquid.prescribed_velocity) return "liquid.prescribed_velocity leaves no flow to solve for; remove it";
   return {};
 }

@@ -107,8 +107,8 @@ def plain(words):
             words.pop(0)
         if words[:2] == ["apptainer", "exec"]:
             words = words[3:]
-    if words[:2] == ["xvfb-run", "-a"]:
-        words = words[2:]
+    if words[:4] == ["xvfb-run", "-a", "-s", "-noreset"]:
+        words = words[4:]
     return words
 
 

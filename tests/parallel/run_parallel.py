@@ -168,6 +168,13 @@ def write_beats(folder):
         (folder / f"beat.{n}.obj").write_text("\n".join(rows) + "\n")
 
 
+def write_outlines(folder):
+    """Diamonds whose first axis grows and shrinks."""
+    for n, size in enumerate((0.12, 0.14, 0.15, 0.13)):
+        rows = [f"{0.4 + size * x}, {0.2 + 0.14 * y}" for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+        (folder / f"beat.{n}.csv").write_text("\n".join(rows) + "\n")
+
+
 def viscous(text, viscosity):
     return text.replace("viscosity = 0.0", f"viscosity = {viscosity}").replace("friction =", 'slip = "no_slip"\nfriction =')
 
@@ -230,6 +237,13 @@ BUBBLE_IN_CELLS = DAM_IN_CELLS.replace(
     'shape = "expression"\nphi = "max(0.14-sqrt((x-0.42)^2+(y-0.25)^2), y-0.5)"') + '[gas]\nbubbles = "volume_conserving"\n'
 PARTING_IN_CELLS = (DAM_IN_CELLS.replace("dimension = 2", "dimension = 2\ngravity = [6.0, 9.81]")
                     .replace("[liquid]\n", "[liquid]\nseparates = true\n"))
+
+# Outlines in 2D that beat beside a rigid ball in the flood.
+BEATING_2D = (DAM_IN_CELLS.replace("end = 0.2", "end = 0.1").replace("frame_rate = 5.0", "frame_rate = 10.0")
+              .replace("fixed_step = 0.01", "fixed_step = 0.005").replace("upper = [0.38, 0.5]", "upper = [0.7, 0.5]")
+              + '[[solid]]\nkind = "deforming"\nshape = "mesh"\nfile = "beat.0.csv"\n'
+              + "sequence = { meshes = 4, rate = 10.0, loop = true }\n"
+              + rigid("ball", 'shape = "sphere"\ncenter = [0.66, 0.2]\nradius = 0.1', 700.0))
 
 POST_IN_CELLS = DAM_IN_CELLS.replace("fixed_step = 0.01", "fixed_step = 0.005") + """\
 [[solid]]
@@ -517,6 +531,14 @@ def beating_ranks_agree_3d(bench):
     resumed_ranks_agree(bench, BEATING)
 
 
+def beating_ranks_agree_2d(bench):
+    """The same with outlines in 2D."""
+    write_outlines(bench.folder)
+    ranks_agree(bench, BEATING_2D, (3,))
+    expect(largest(table(bench.path("one"), "solids.csv"), "pin_fx") > 0, "nothing drives the solid")
+    resumed_ranks_agree(bench, BEATING_2D)
+
+
 def viscous_ranks_agree_2d(bench):
     """Thick liquid that bends a gate and drags a box and a ball, on 1, 2 and 3 ranks."""
     ranks_agree(bench, THICK, (2, 3))
@@ -639,6 +661,13 @@ def waves_ranks_agree_2d(bench):
     resumed_ranks_agree(bench, SEA)
 
 
+def waves_under_gas_agree(bench):
+    """The same below gas, on 1 and 3 ranks, and resumed half-way."""
+    text = SEA.replace(f"tolerance = {TOLERANCE}", "tolerance = 1e-11") + "[gas]\ndensity = 1.2\n"
+    ranks_agree(bench, text, (3,))
+    resumed_ranks_agree(bench, text)
+
+
 def waves_ranks_agree_3d(bench):
     """The same aslant in 3D, on 1 and 3 ranks."""
     ranks_agree(bench, SEA_3D, (3,))
@@ -756,12 +785,13 @@ def air_killed_at_random(bench):
 TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, joints_ranks_agree_2d,
                        rigid_ranks_agree_3d,
                        elastic_ranks_agree_2d, sheet_ranks_agree, sprung_ranks_agree_2d, bounces_ranks_agree_2d,
-                       beating_ranks_agree_3d, viscous_ranks_agree_2d,
+                       beating_ranks_agree_3d, beating_ranks_agree_2d, viscous_ranks_agree_2d,
                        mud_ranks_agree_2d, gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d,
                        viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d,
                        volumes_beside_post_agree, volumes_ranks_agree_3d, volumes_under_gas_agree,
                        volumes_round_bubble_agree, volumes_that_part_agree, poured_volumes_agree, jet_ranks_agree,
-                       fed_ranks_agree_2d, fed_ranks_agree_3d, waves_ranks_agree_2d, waves_ranks_agree_3d,
+                       fed_ranks_agree_2d, fed_ranks_agree_3d, waves_ranks_agree_2d, waves_under_gas_agree,
+                       waves_ranks_agree_3d,
                        same_ranks_same_bits, elastic_same_ranks_same_bits],
           "long_equality": [shared_elements_ranks_agree, shared_unknowns_ranks_agree, twins_ranks_agree,
                             elastic_ranks_agree_3d, viscous_ranks_agree_3d, tension_ranks_agree_3d],

@@ -1,5 +1,6 @@
 """Tests .xdmf files in both of ParaView's readers, and the script that draws them."""
 import json
+import sys
 
 from programs import (HERE, SHARE, TOP, bounds, call, expect, expect_near, expect_picture, main, need, small_run)
 
@@ -11,7 +12,8 @@ FLAT = ["--set", "time.end=0.1", "--set", "domain.cell_size=0.0625"]
 
 def pvbatch(*arguments, code=0):
     """Runs pvbatch with a display of its own."""
-    return call([need("xvfb-run", "xvfb (and xauth)"), "-a", need("pvbatch", "paraview (and python3-paraview)"),
+    need("Xvfb", "xvfb")
+    return call([sys.executable, HERE / "virtual_display.py", need("pvbatch", "paraview (and python3-paraview)"),
                  *arguments], "pvbatch", code)
 
 

@@ -84,6 +84,25 @@ def ply(points, triangles):
     return (head + rows(points) + "".join("3 " + r + "\n" for r in rows(triangles).splitlines())).encode()
 
 
+def outline(size=1.0, points=12):
+    """Points of a star about the origin, of size 1."""
+    found = []
+    for n in range(points):
+        angle, far = 2 * math.pi * n / points, 0.8 if n % 2 == 0 else 0.6
+        found.append([size * far * math.cos(angle), far * math.sin(angle)])
+    return found
+
+
+def csv(points):
+    return ("x, y\n" + "".join(f"{x!r}, {y!r}\n" for x, y in points)).encode()
+
+
+def lines(points):
+    last = len(points)
+    return ("".join(f"v {x!r} {y!r} 0\n" for x, y in points)
+            + "".join(f"l {n + 1} {n + 2 if n + 1 < last else 1}\n" for n in range(last))).encode()
+
+
 def stl(points, triangles):
     body = b"".join(struct.pack("<12fH", 0, 0, 0, *(v for n in t for v in points[n]), 0) for t in triangles)
     return b"made by tools/fuzz".ljust(80) + struct.pack("<I", len(triangles)) + body
@@ -151,6 +170,8 @@ def make_assets(program, folder):
     for n in range(BEATS):
         size = 0.8 + 0.2 * math.sin(2 * math.pi * n / BEATS)
         files[f"beat.{n}.obj"] = obj([[size * x, y, z] for x, y, z in points], triangles)
+        files[f"beat2.{n}.csv"] = csv(outline(size))
+    files["ring2.csv"], files["ring2.obj"] = csv(outline()), lines(outline())
     files["hills2.png"], files["hills3.png"] = png(hills(7, 1)), png(hills(5, 6))
     for dim in (2, 3):
         for ending, write in (("msh", msh), ("mesh", medit), ("vtu", vtu)):

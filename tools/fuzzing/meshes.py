@@ -102,8 +102,8 @@ USES = {"region": ("[[liquid.region]]\n", ""), "static": ('[[solid]]\nkind = "st
 def make_file(bench, rng):
     """(name, bytes, description of the change)."""
     name = rng.choice([n for n in bench.things])
-    ending = name.split(".")[1]
-    if ending in WRITERS and rng.random() < 0.5:
+    ending = name.split(".")[-1]
+    if ending in WRITERS and "2." not in name and rng.random() < 0.5:
         way = rng.choice(GEOMETRY)
         points, triangles = way(rng, *surface())
         return name, WRITERS[ending](points, triangles), way.__name__

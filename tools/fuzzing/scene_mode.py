@@ -1,5 +1,6 @@
 """Mode `scenes`: runs and judges random scenes; shrinks those that fail."""
 import copy
+import re
 import shutil
 
 from fuzzing.assets import make_assets
@@ -27,7 +28,8 @@ def lay_out(bench, scene, folder):
     text = to_toml(scene)
     (folder / "scene.toml").write_text(text, encoding="utf-8")
     for name, data in bench.things["assets"].items():
-        if f'"{name}"' in text or (name.startswith("beat.") and '"beat.0.obj"' in text):   # a sequence names its first
+        first = re.sub(r"^(beat2?)\.\d", r"\1.0", name)   # a sequence names its first
+        if f'"{name}"' in text or f'"{first}"' in text:
             (folder / name).write_bytes(data)
     for name, data in files_in(text):
         (folder / name).write_bytes(data)

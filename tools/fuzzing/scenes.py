@@ -117,18 +117,18 @@ def slots(c):
 
 def solid(c, center, radius):
     c.slot, c.radius = center, radius
-    here = {"kind": c.rng.choice([k for k in c.choices("solid[]", "kind") if c.dim == 3 or k != "deforming"])}
+    here = {"kind": c.rng.choice(c.choices("solid[]", "kind"))}
     c.use("solid[]", "kind", here["kind"])
     if c.rng.random() < 0.9 or here["kind"] == "elastic":
         here = {"name": VALUES["solid[]", "name"](c, here), **here}
     elastic = here["kind"] == "elastic"
-    kinds = [k for k in c.choices("solid[]", "shape") if c.dim == 3 or elastic or k != "mesh"]
+    kinds = c.choices("solid[]", "shape")
     if here["kind"] != "static":
         kinds = [k for k in kinds if k not in ("plane", "height_map")]
     files = [f"block{c.dim}.{e}" for e in ("msh", "mesh", "vtu")] if elastic else []
-    files += shapes.SURFACES if c.dim == 3 else ()
+    files += shapes.SURFACES[c.dim]
     if here["kind"] == "deforming":
-        kinds, files = ["mesh"], ["beat.0.obj"]
+        kinds, files = ["mesh"], [shapes.FIRST_BEAT[c.dim]]
     kind = c.rng.choice(kinds)
     shape = fit_shape(c.rng, c.dim, kind, center, radius, files)
     if kind == "plane":   # at a corner of the domain, since in the middle it would cut into other solids

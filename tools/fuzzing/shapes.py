@@ -7,8 +7,9 @@ GEOMETRY = {"box": ("lower", "upper"), "sphere": ("center", "radius"), "cylinder
             "expression": ("phi",), "level_set": ("file",), "height_map": ("lower", "upper", "file", "up")}
 TRANSFORM = ("invert", "scale", "rotate", "translate")
 KEYS = {"shape", *TRANSFORM, *(key for keys in GEOMETRY.values() for key in keys)}
-SURFACES = ("ball.obj", "ball.ply", "ball.stl")
-BEATS = 5   # meshes of a sequence, beat.0.obj and so on
+SURFACES = {2: ("ring2.csv", "ring2.obj"), 3: ("ball.obj", "ball.ply", "ball.stl")}
+BEATS = 5   # meshes of a sequence
+FIRST_BEAT = {2: "beat2.0.csv", 3: "beat.0.obj"}
 
 
 def unit_vector(rng, dim):
@@ -85,7 +86,7 @@ def from_file(rng, dim, kind, center, r, files):
     if kind == "level_set":
         name = f"ball{dim}.vdb"
     else:
-        name = rng.choice([f for f in files if f in SURFACES or f.startswith("beat") or f"block{dim}" in f])
+        name = rng.choice([f for f in files if f in SURFACES[dim] or f.startswith("beat") or f"block{dim}" in f])
     return {"shape": kind, "file": name, "scale": number(0.8 * r),
             "rotate": rotation(rng, dim, rng.choice([0, 30, 200])), "translate": point(center)}
 

@@ -9,7 +9,7 @@ CLOSED = ("free_slip", "no_slip")
 def boundary(c, _):
     """Periodic sides in pairs; an inflow has an outflow on the opposite side; waves pass upright sides."""
     sides = {}
-    waves = ["waves"] if c.acceleration and not c.has_gas and not c.prescribes else []
+    waves = ["waves"] if c.acceleration and not c.prescribes else []
     for axis in AXES[:c.dim]:
         low, high = f"{axis}_lower", f"{axis}_upper"
         what = c.rng.choice(["", "", "walls", "periodic", "through", "open", *(waves if axis != "y" else [])])

@@ -100,8 +100,8 @@ def pool(c):
 
 
 def random_shape(c, table, center, r, files=None):
-    kind = c.rng.choice([v for v in c.choices(table, "shape") if v != "mesh" or files or c.dim == 3])
-    shape = fit_shape(c.rng, c.dim, kind, center, r, files or SURFACES)
+    kind = c.rng.choice(c.choices(table, "shape"))
+    shape = fit_shape(c.rng, c.dim, kind, center, r, files or SURFACES[c.dim])
     c.use_shape(table, shape)
     return shape
 
@@ -212,9 +212,9 @@ def pins(c, _):
     for side_of in ((-1, 1) if two else (c.rng.choice([-1, 1]),)):
         center = list(c.slot)
         center[axis] += side_of * c.radius * (0.9 if two else 0.6)
-        left_out = ("mesh",) * (c.dim == 2) + ("plane", "height_map") * two
+        left_out = ("plane", "height_map") * two
         kinds = [k for k in c.choices("solid[].pinned", "shape") if k not in left_out]
-        here = fit_shape(c.rng, c.dim, c.rng.choice(kinds), center, (0.8 if two else 1.4) * c.radius, SURFACES)
+        here = fit_shape(c.rng, c.dim, c.rng.choice(kinds), center, (0.8 if two else 1.4) * c.radius, SURFACES[c.dim])
         if here["shape"] == "plane" and "translate" not in here:
             here["point"] = point(c.slot)
         c.use_shape("solid[].pinned", here)
@@ -290,6 +290,7 @@ VALUES = {
     **{(f"liquid.{name}[]", key): make for name in ("source", "drain")
        for key, make in (("rate", rate), ("attached_to", lambda c, _: None),   # by tests of moving sources
                          ("motion", lambda c, _, name=name: motion(c, f"liquid.{name}[].motion", 0.3 * c.radius)))},
+    ("gas", "bubbles"): lambda c, _: "resolved" if c.has_waves else c.rng.choice(c.choices("gas", "bubbles")),
     ("gas", "density"): lambda c, _: log_uniform(c, c.density_scale * 1e-3, c.density_scale),
     ("gas", "viscosity"): lambda c, _: c.rng.choice([0.0, number(c.density_scale * c.speed * c.length * 1e-4)]),
     ("gas", "velocity"): lambda c, _: flow(c, 0.5 * c.speed),

@@ -4,6 +4,7 @@
 #include "coupling/solids/elastic_coupling.h"
 #include "coupling/solids/kind_elastic.h"
 #include "coupling/solids/solid_kinds.h"
+#include "geometry/mesh/facets.h"
 
 namespace seiche {
 namespace {
@@ -61,8 +62,9 @@ class DeformingParticipant : public ElasticParticipant<Dim> {
   }
   std::string describe_mesh() const override {
     const MeshSequence& meshes = *this->elements().sequence;
-    return fmt::format("solid '{}': {} meshes of {} points and {} triangles", this->body().spec().name, meshes.count(),
-                       meshes.first().points.size(), meshes.first().triangles.size());
+    return fmt::format("solid '{}': {} {} of {} points and {} {}", this->body().spec().name, meshes.count(),
+                       Dim == 2 ? "outlines" : "meshes", meshes.first().points.size(),
+                       facets_of<Dim>(meshes.first()).size(), Dim == 2 ? "lines" : "triangles");
   }
 };
 
@@ -71,7 +73,7 @@ class DeformingParticipant : public ElasticParticipant<Dim> {
 SolidKindRow deforming_solid() {
   const SolidKind kind{.name = "deforming", .drive = Drive::prescribed, .follows_meshes = true};
   return {kind,
-          "takes on a sequence of meshes (3D)",
+          "takes on a sequence of meshes",
           {},
           make_participant<DeformingParticipant<2>>,
           make_participant<DeformingParticipant<3>>};

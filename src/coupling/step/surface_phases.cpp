@@ -277,6 +277,8 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
   if (s.domain.sides.any_waves())
     absorb_waves<Dim>(s.domain, {before.phi, times.start}, {moved.state.phi, times.start + times.lead},
                       moved.state.time, moved.geometry);
+  if (s.domain.sides.any_waves() && moved.state.exterior->flows())
+    balance_gas_beside_waves(s.domain, moved.state.phi, moved.geometry);
   if (s.domain.sides.any_passes())
     find_entering(s.domain, before.exterior->joined_level(s.domain, s.fluids, before)->u, moved.geometry.faces);
   const auto timed = phases.timers.measure("surface");

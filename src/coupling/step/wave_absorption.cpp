@@ -26,6 +26,8 @@ class SideColumns {
     return above;
   }
 
+  std::size_t count() const { return along_ < 0 ? 1 : std::size_t(cells(along_)); }
+
   std::size_t number(const IVec<Dim>& i) const {
     if (along_ < 0) return 0;
     const int n = cells(along_), j = i[along_];
@@ -38,7 +40,7 @@ class SideColumns {
   std::vector<double> above_rest(const CellField<Dim>& phi, const NodeField<Dim>& psi) const {
     const Layout<Dim>& layout = domain_.layout;
     const double h = layout.h();
-    std::vector<double> above(along_ < 0 ? 1 : std::size_t(cells(along_)));
+    std::vector<double> above(count());
     const bool two = cells(axis_) > 1;
     for (int layer = 0; layer < (two ? 2 : 1); ++layer) {
       const double weight = !two ? 1 : layer == 0 ? 1.5 : -0.5;
@@ -98,6 +100,54 @@ void absorb_waves(const Domain<Dim>& domain, const LevelAt<Dim>& before, const L
     }
 }
 
+namespace {
+
+// Share of gas in the flow across a face of a side, by the level in the cell beside it.
+double gas_at_face(double phi, double h) {
+  return std::clamp(phi / h - 0.5, 0.0, 1.0);
+}
+
+// Calls use(face, column, share of gas) for the prescribed faces of a side with waves, those of ghosts too.
+template <int Dim, class Use>
+void for_each_wave_face(const Domain<Dim>& domain, const SideColumns<Dim>& columns, int axis, int side,
+                        const Box<Dim>& faces, const CellField<Dim>& phi, const FaceGeometry<Dim>& geometry,
+                        const Use& use) {
+  const Layout<Dim>& layout = domain.layout;
+  for_each_index_in_order(layout, faces, [&](Site f, const IVec<Dim>& i) {
+    if (geometry.kind_at(axis, f) != FaceKind::prescribed) return;
+    const Site inside = side == 0 ? f : f - layout.stride(axis);
+    use(f, columns.number(i), gas_at_face(phi[inside], layout.h()));
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+void balance_gas_beside_waves(const Domain<Dim>& domain, const CellField<Dim>& phi, StepGeometry<Dim>& g) {
+  const Layout<Dim>& layout = domain.layout;
+  for (int a = 0; a < Dim; ++a)
+    for (const int side : {0, 1}) {
+      if (!domain.sides.waves(a, side)) continue;
+      const SideColumns<Dim> columns(domain, a, side);
+      std::vector<double> sums(2 * columns.count());  // of each column: flux of liquid, area of gas
+      for_each_wave_face(domain, columns, a, side, faces_of_side(layout, a, side), phi, g.faces,
+                         [&](Site f, std::size_t n, double gas) {
+                           const double open = g.faces.open.at(a, f);
+                           sums[2 * n] += open * (1 - gas) * g.faces.prescribed.at(a, f);
+                           sums[2 * n + 1] += open * gas;
+                         });
+      domain.ranks.global_sum(sums);
+      for_each_wave_face(domain, columns, a, side, padded_faces_of_side(layout, a, side), phi, g.faces,
+                         [&](Site f, std::size_t n, double gas) {
+                           if (gas == 0 || !(sums[2 * n + 1] > 0)) return;
+                           const double back = -sums[2 * n] / sums[2 * n + 1], u = g.faces.prescribed.at(a, f);
+                           g.faces.prescribed.set(a, f, u + gas * (back - u));
+                         });
+    }
+}
+
+template void balance_gas_beside_waves<2>(const Domain<2>&, const CellField<2>&, StepGeometry<2>&);
+template void balance_gas_beside_waves<3>(const Domain<3>&, const CellField<3>&, StepGeometry<3>&);
 template void absorb_waves<2>(const Domain<2>&, const LevelAt<2>&, const LevelAt<2>&, double, StepGeometry<2>&);
 template void absorb_waves<3>(const Domain<3>&, const LevelAt<3>&, const LevelAt<3>&, double, StepGeometry<3>&);
 

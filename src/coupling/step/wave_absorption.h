@@ -20,4 +20,11 @@ template <int Dim>
 void absorb_waves(const Domain<Dim>& domain, const LevelAt<Dim>& before, const LevelAt<Dim>& solved, double t,
                   StepGeometry<Dim>& geometry);
 
+// Gives gas at sides with waves the velocity that takes back what liquid brings: the same at all faces of gas in an
+// upright column, so that no volume passes the column. phi is the level of the solve. Faces within half a cell of the
+// surface move with the liquid; those from there to a cell further do so in part. Columns without gas stay as they
+// are. Collective.
+template <int Dim>
+void balance_gas_beside_waves(const Domain<Dim>& domain, const CellField<Dim>& phi, StepGeometry<Dim>& geometry);
+
 }  // namespace seiche

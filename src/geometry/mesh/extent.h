@@ -10,4 +10,7 @@ namespace seiche {
 // Error(bad_input) if the file cannot be parsed.
 Vec3 mesh_extent(const std::filesystem::path& file);
 
+// The same of a file's polylines.
+Vec3 polyline_extent(const std::filesystem::path& file);
+
 }  // namespace seiche

@@ -24,6 +24,10 @@ SurfaceMesh parse_obj(const Source& source);
 SurfaceMesh parse_ply(const Source& source);
 SurfaceMesh parse_stl(const Source& source);
 
+// Parse closed polylines in the plane z = 0: the lines (l) of an OBJ file, or rows of x and y.
+SurfaceMesh parse_obj_lines(const Source& source);
+SurfaceMesh parse_rows_of_points(const Source& source);
+
 // True for binary STL: the length agrees with its count of triangles, or the bytes are not text that begins with
 // "solid".
 bool is_binary_stl(std::string_view bytes);

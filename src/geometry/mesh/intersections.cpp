@@ -23,15 +23,6 @@ int view(const Vec3& a, const Vec3& b, const Vec3& c) {
   return -1;
 }
 
-bool segments_meet_in_plane(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, int axis) {
-  const int pa = orientation(a, b, p, axis), qa = orientation(a, b, q, axis);
-  const int ap = orientation(p, q, a, axis), bp = orientation(p, q, b, axis);
-  if (pa != 0 || qa != 0 || ap != 0 || bp != 0) return pa * qa <= 0 && ap * bp <= 0;
-  for (int k = 0; k < 3; ++k)  // collinear
-    if (std::max(p[k], q[k]) < std::min(a[k], b[k]) || std::max(a[k], b[k]) < std::min(p[k], q[k])) return false;
-  return true;
-}
-
 bool lies_in(const Vec3& p, const std::array<Vec3, 3>& t, int axis) {
   const int ab = orientation(t[0], t[1], p, axis), bc = orientation(t[1], t[2], p, axis),
             ca = orientation(t[2], t[0], p, axis);
@@ -143,6 +134,15 @@ std::vector<std::array<int, 2>> candidates(const SurfaceMesh& mesh) {
 }
 
 }  // namespace
+
+bool segments_meet_in_plane(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, int axis) {
+  const int pa = orientation(a, b, p, axis), qa = orientation(a, b, q, axis);
+  const int ap = orientation(p, q, a, axis), bp = orientation(p, q, b, axis);
+  if (pa != 0 || qa != 0 || ap != 0 || bp != 0) return pa * qa <= 0 && ap * bp <= 0;
+  for (int k = 0; k < 3; ++k)  // collinear
+    if (std::max(p[k], q[k]) < std::min(a[k], b[k]) || std::max(a[k], b[k]) < std::min(p[k], q[k])) return false;
+  return true;
+}
 
 // Triangles that share one corner meet elsewhere if and only if the side opposite to it in one of them meets the other:
 // the common part is convex, and a ray from the corner leaves one of them first.

@@ -215,6 +215,9 @@ void weld(SurfaceMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     for (const int corner : t) used[corner] = 1;
   }
+  for (const auto& ends : mesh.segments) {
+    for (const int end : ends) used[end] = 1;
+  }
   std::vector<int> order(mesh.points.size()), first(mesh.points.size()), compact(mesh.points.size(), -1);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), less);  // of equal points, the first in the file comes first
@@ -232,6 +235,9 @@ void weld(SurfaceMesh& mesh) {
   }
   for (Triangle& t : mesh.triangles) {
     for (int& corner : t) corner = compact[first[corner]];
+  }
+  for (auto& ends : mesh.segments) {
+    for (int& end : ends) end = compact[first[end]];
   }
   mesh.points = std::move(points);
 }

@@ -34,11 +34,6 @@ Vec3 to_world(const Vec3& own, const TransformSpec& t) {
   return extend<Dim>(Vec<Dim>(truncate<Dim>(t.translate) + t.scale * turned));
 }
 
-void turn_inside_out(SurfaceMesh& mesh) {
-  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-  for (auto& s : mesh.segments) std::swap(s[0], s[1]);
-}
-
 // The block behind the part of the plane near the domain. An inverted plane has the opposite normal.
 template <int Dim>
 SurfaceMesh plane_surface(const ShapeSpec& spec, const Vec<Dim>& lower, const Vec<Dim>& upper) {
@@ -62,7 +57,7 @@ SurfaceMesh contoured_surface(ShapeSpec spec, const ShapeOptions& options, const
   const Vec<Dim> margin = Vec<Dim>::Constant(contour_margin * options.cell_size);
   const auto field = make_shape<Dim>(spec, options);
   SurfaceMesh mesh = closed_contour<Dim>(*field, options.cell_size, lower - margin, upper + margin);
-  if (inverted) turn_inside_out(mesh);
+  if (inverted) shape::turn_inside_out(mesh);
   return mesh;
 }
 
@@ -71,7 +66,7 @@ SurfaceMesh primitive_surface(const ShapeSpec& spec, const ShapeOptions& options
   make_shape<Dim>(spec, options);  // throws on impossible sizes
   SurfaceMesh mesh = row.tessellate(spec, chord_share * options.cell_size / spec.transform.scale);
   for (Vec3& p : mesh.points) p = to_world<Dim>(p, spec.transform);
-  if (spec.invert) turn_inside_out(mesh);
+  if (spec.invert) shape::turn_inside_out(mesh);
   return mesh;
 }
 
@@ -83,7 +78,7 @@ SurfaceMesh contact_surface(const ShapeSpec& spec, const ShapeOptions& options, 
   for (const Row<Dim>& row : primitives<Dim>) {
     if (spec.kind == row.kind) return primitive_surface<Dim>(spec, options, row);
   }
-  if (Dim == 3 && spec.kind == "mesh") return shape::read_shape_mesh(spec, {options.cell_size, nullptr});
+  if (spec.kind == "mesh") return shape::read_shape_mesh<Dim>(spec, {options.cell_size, nullptr});
   if (spec.kind != "plane") return contoured_surface<Dim>(spec, options, lower, upper);
   make_shape<Dim>(spec, options);
   return plane_surface<Dim>(spec, lower, upper);

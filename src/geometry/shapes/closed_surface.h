@@ -11,7 +11,7 @@ namespace seiche {
 //   Limits cylinder,    (and the radius where they are reached): sphere 642 points (11 cells; 0.0046 radii inside
 //   beyond), capsule      cylinder 128 around (42 cells), capsule 48 around (12 cells), 2D disc or capsule 256 (660
 //   cells) plane        a block behind the plane that reaches beyond the domain, with two triangles as its face mesh
-//   the file's own triangles expression,  contoured at cell_size: up to h^2/(2 r) inside convex parts, sharp edges
+//   the file's own facets expression,  contoured at cell_size: up to h^2/(2 r) inside convex parts, sharp edges
 //   rounded level_set    by up to a cell; cut off flat two cells beyond [lower, upper]
 // Throws Error(bad_input) naming spec.where.
 template <int Dim>

@@ -29,12 +29,15 @@ Field<Dim> make_level_set(const ShapeSpec& spec, const ShapeOptions& options);
 template <int Dim>
 Field<Dim> make_height_map(const ShapeSpec& spec, const ShapeOptions& options);
 
-// In world coordinates: vertices are transformed before sampling. 3D only; throws Error(bad_input) in 2D.
+// In world coordinates: points are transformed first. 2D: exact, 3D: sampled.
 template <int Dim>
 Field<Dim> make_mesh(const ShapeSpec& spec, const ShapeOptions& options);
 
-// The closed mesh of a "mesh" shape, transformed. With invert its triangles face the other way.
+// The closed mesh of a "mesh" shape, transformed. With invert its facets face the other way.
+template <int Dim>
 SurfaceMesh read_shape_mesh(const ShapeSpec& spec, const ShapeOptions& options);
+
+void turn_inside_out(SurfaceMesh& mesh);
 
 // The rotation matrix of a transform, exact for multiples of 90 degrees about a coordinate axis. 2D: about z. 3D:
 // throws Error(bad_input) if the axis is zero.

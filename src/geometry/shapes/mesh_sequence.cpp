@@ -9,27 +9,34 @@
 #include "base/numbered_files.h"
 #include "base/solid_spec.h"
 #include "geometry/shapes/makers.h"
+#include "geometry/shapes/sequence_checks.h"
 
 namespace seiche {
 namespace {
 
-using Triangle = std::array<int, 3>;
-
-bool same_corners(Triangle a, Triangle b) {
+template <class Facet>
+bool same_corners(Facet a, Facet b) {
   std::sort(a.begin(), a.end());
   std::sort(b.begin(), b.end());
   return a == b;
 }
 
+// Reason why facets are not those of the first mesh, or empty.
+template <class Facet>
+std::string fault_of_facets(const std::vector<Facet>& first, const std::vector<Facet>& facets, const char* name) {
+  if (facets.size() != first.size()) return fmt::format("has {} {}s, the first {}", facets.size(), name, first.size());
+  const auto [at, there] = std::mismatch(facets.begin(), facets.end(), first.begin());
+  if (at == facets.end()) return {};
+  if (same_corners(*at, *there)) return "is turned inside out";
+  return fmt::format("joins other points in {} {} than the first", name, at - facets.begin());
+}
+
 // Reason why a mesh cannot follow the first, or empty.
 std::string fault_of_topology(const SurfaceMesh& first, const SurfaceMesh& mesh) {
-  if (mesh.points.size() != first.points.size() || mesh.triangles.size() != first.triangles.size())
-    return fmt::format("has {} points and {} triangles, the first {} and {}", mesh.points.size(), mesh.triangles.size(),
-                       first.points.size(), first.triangles.size());
-  const auto [at, there] = std::mismatch(mesh.triangles.begin(), mesh.triangles.end(), first.triangles.begin());
-  if (at == mesh.triangles.end()) return {};
-  if (same_corners(*at, *there)) return "is turned inside out";
-  return fmt::format("joins other points in triangle {} than the first", at - mesh.triangles.begin());
+  if (mesh.points.size() != first.points.size())
+    return fmt::format("has {} points, the first {}", mesh.points.size(), first.points.size());
+  const std::string fault = fault_of_facets(first.triangles, mesh.triangles, "triangle");
+  return fault.empty() ? fault_of_facets(first.segments, mesh.segments, "line") : fault;
 }
 
 // Cubic with the values a, b and the slopes p, q at s = 0 and 1.
@@ -40,14 +47,15 @@ Vec3 hermite(const Vec3& a, const Vec3& p, const Vec3& b, const Vec3& q, double 
 
 }  // namespace
 
-MeshSequence::MeshSequence(const ShapeSpec& shape, const SequenceSpec& spec, const ShapeOptions& options)
+MeshSequence::MeshSequence(int dimension, const ShapeSpec& shape, const SequenceSpec& spec, const ShapeOptions& options)
     : rate_(spec.rate), start_(spec.start), loops_(spec.loop) {
   ShapeSpec one = shape;
-  for (const std::filesystem::path& file : numbered_files(shape.file, spec.meshes)) {
+  const std::vector<std::filesystem::path> files = numbered_files(shape.file, spec.meshes);
+  for (const std::filesystem::path& file : files) {
     one.file = file;
     SurfaceMesh mesh;
     try {
-      mesh = shape::read_shape_mesh(one, options);
+      mesh = dimension == 2 ? shape::read_shape_mesh<2>(one, options) : shape::read_shape_mesh<3>(one, options);
     } catch (const Error& e) {
       throw Error(e.code(), shape.where + ": " + e.what());
     }
@@ -59,6 +67,7 @@ MeshSequence::MeshSequence(const ShapeSpec& shape, const SequenceSpec& spec, con
                               shape.where, file.string(), fault));
     points_.push_back(std::move(mesh.points));
   }
+  require_simple_between(*this, files, shape.where);
 }
 
 // Without a loop the sequence goes back at its ends, where the slopes are zero then.

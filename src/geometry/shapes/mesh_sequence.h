@@ -13,11 +13,16 @@ struct SequenceSpec;
 class MeshSequence {
  public:
   // Reads and checks all meshes, transformed as the shape. Throws Error(bad_input) naming shape.where and the file:
-  // it is no closed mesh, or has other triangles than the first.
-  MeshSequence(const ShapeSpec& shape, const SequenceSpec& spec, const ShapeOptions& options);
+  // it is no closed mesh (2D: outline), has other facets than the first, or the surface crosses itself on the way to
+  // the next.
+  MeshSequence(int dimension, const ShapeSpec& shape, const SequenceSpec& spec, const ShapeOptions& options);
 
   const SurfaceMesh& first() const { return first_; }
   int count() const { return int(points_.size()); }
+  bool loops() const { return loops_; }
+  const std::vector<Vec3>& points_of(int mesh) const { return points_[std::size_t(mesh)]; }
+  // Time of a mesh, counted from 0, or between two, s.
+  double time_of(double mesh) const { return start_ + mesh / rate_; }
   // Places of the points at time t, m: a cubic spline in time through the meshes, so velocities and accelerations have
   // no jumps. Without a loop the points rest before the first mesh and after the last.
   std::vector<Vec3> points_at(double t) const;

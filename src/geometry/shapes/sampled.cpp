@@ -1,4 +1,4 @@
-// Shapes without a closed form: expressions, triangle meshes and level sets of frames.
+// Shapes without a closed form: expressions, meshes and level sets of frames.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/expression.h"
+#include "geometry/mesh/polyline.h"
 #include "geometry/shapes/makers.h"
 #include "geometry/shapes/sampled_mesh.h"
 #include "geometry/vdb/openvdb_adapter.h"
@@ -59,6 +60,12 @@ struct SampledShape : ShapeField<Dim> {
   double operator()(const Vec<Dim>& x) const override { return (*distance)(extend<Dim>(x)); }
 };
 
+struct PolylineShape : ShapeField<2> {
+  mesh::PolylineDistance distance;
+  explicit PolylineShape(SurfaceMesh polylines) : distance(std::move(polylines)) {}
+  double operator()(const Vec<2>& x) const override { return distance(extend<2>(x)); }
+};
+
 void transform_points(std::vector<Vec3>& points, const TransformSpec& t) {
   const Eigen::Matrix3d r = rotation<3>(t.rotate);
   for (Vec3& p : points) p = t.translate + r * (t.scale * p);
@@ -81,30 +88,34 @@ Field<Dim> make_expression(const ShapeSpec& spec, const ShapeOptions& options) {
   return field;
 }
 
+void turn_inside_out(SurfaceMesh& mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  for (auto& s : mesh.segments) std::swap(s[0], s[1]);
+}
+
+template <int Dim>
 SurfaceMesh read_shape_mesh(const ShapeSpec& spec, const ShapeOptions& options) {
   std::vector<std::string> notes;
-  SurfaceMesh mesh = read_closed_mesh(spec.file, notes);
+  SurfaceMesh mesh = Dim == 2 ? read_closed_polylines(spec.file, notes) : read_closed_mesh(spec.file, notes);
   if (options.notes) options.notes->insert(options.notes->end(), notes.begin(), notes.end());
   transform_points(mesh.points, spec.transform);
-  if (spec.invert) {
-    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-  }
+  if (spec.invert) turn_inside_out(mesh);
   return mesh;
 }
 
-template <>
-Field<2> make_mesh<2>(const ShapeSpec&, const ShapeOptions&) {
-  refuse("the shape 'mesh' needs a 3D scene; in 2D use box, sphere, cylinder, capsule, plane or expression");
-}
-
-template <>
-Field<3> make_mesh<3>(const ShapeSpec& spec, const ShapeOptions& options) {
+template <int Dim>
+Field<Dim> make_mesh(const ShapeSpec& spec, const ShapeOptions& options) {
   require_cell_size(options, spec.kind);
   ShapeSpec upright = spec;
   upright.invert = false;  // make_shape() inverts the distance
-  auto field = std::make_unique<SampledShape<3>>();
-  field->distance = std::make_unique<SampledMesh>(read_shape_mesh(upright, options), options.cell_size, mesh_band);
-  return field;
+  SurfaceMesh mesh = read_shape_mesh<Dim>(upright, options);
+  if constexpr (Dim == 2) {
+    return std::make_unique<PolylineShape>(std::move(mesh));
+  } else {
+    auto field = std::make_unique<SampledShape<3>>();
+    field->distance = std::make_unique<SampledMesh>(std::move(mesh), options.cell_size, mesh_band);
+    return field;
+  }
 }
 
 template <int Dim>
@@ -114,6 +125,10 @@ Field<Dim> make_level_set(const ShapeSpec& spec, const ShapeOptions&) {
   return field;
 }
 
+template SurfaceMesh read_shape_mesh<2>(const ShapeSpec&, const ShapeOptions&);
+template SurfaceMesh read_shape_mesh<3>(const ShapeSpec&, const ShapeOptions&);
+template Field<2> make_mesh<2>(const ShapeSpec&, const ShapeOptions&);
+template Field<3> make_mesh<3>(const ShapeSpec&, const ShapeOptions&);
 template Field<2> make_expression<2>(const ShapeSpec&, const ShapeOptions&);
 template Field<3> make_expression<3>(const ShapeSpec&, const ShapeOptions&);
 template Field<2> make_level_set<2>(const ShapeSpec&, const ShapeOptions&);

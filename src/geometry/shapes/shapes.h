@@ -30,7 +30,7 @@ std::unique_ptr<ShapeField<Dim>> make_shape(const ShapeSpec& spec, const ShapeOp
 // The names of the shape table, for the reader and the documentation.
 std::vector<std::string> shape_names();
 
-// The surface of a shape as a mesh, for pictures and .vtu frames: the file's own triangles for "mesh", otherwise
+// The surface of a shape as a mesh, for pictures and .vtu frames: the file's own facets for "mesh", otherwise
 // contoured on a grid of the given spacing within [lower, upper]. 2D gives segments.
 template <int Dim>
 SurfaceMesh shape_surface(const ShapeSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,

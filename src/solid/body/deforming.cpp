@@ -4,7 +4,6 @@
 #include <map>
 
 #include "base/disjoint_sets.h"
-#include "base/error.h"
 #include "geometry/mesh/facets.h"
 #include "solid/body/mass_properties.h"
 #include "solid/elastic/surface_patches.h"
@@ -42,15 +41,23 @@ ElasticSurface surface_of_mesh(const SurfaceMesh& mesh) {
   return surface;
 }
 
-// A third of the area of each triangle goes to each of its corners.
+// Length (2D) or area of a facet.
+double area_of(const SurfaceMesh& mesh, const std::array<int, 2>& ends) {
+  return (mesh.points[std::size_t(ends[1])] - mesh.points[std::size_t(ends[0])]).norm();
+}
+
+double area_of(const SurfaceMesh& mesh, const std::array<int, 3>& corners) {
+  const Vec3 &a = mesh.points[std::size_t(corners[0])], &b = mesh.points[std::size_t(corners[1])],
+             &c = mesh.points[std::size_t(corners[2])];
+  return (b - a).cross(c - a).norm() / 2;
+}
+
+// The area of each facet goes to its corners in equal parts.
 template <int Dim>
 Eigen::VectorXd areas_of_points(const SurfaceMesh& mesh) {
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(Eigen::Index(mesh.points.size()));
-  for (const auto& t : mesh.triangles) {
-    const Vec3 &a = mesh.points[std::size_t(t[0])], &b = mesh.points[std::size_t(t[1])],
-               &c = mesh.points[std::size_t(t[2])];
-    for (const int p : t) areas[p] += (b - a).cross(c - a).norm() / 6;
-  }
+  for (const auto& facet : facets_of<Dim>(mesh))
+    for (const int p : facet) areas[p] += area_of(mesh, facet) / Dim;
   return areas;
 }
 
@@ -73,20 +80,18 @@ ElasticBody<Dim> body_of_points(const SurfaceMesh& mesh) {
 
 }  // namespace
 
-template <>
-ElasticSolid<2> make_deforming_solid<2>(const SolidSpec& spec, const ShapeOptions&) {
-  throw Error(ExitCode::bad_input, spec.shape.where + ": deforming solids are for dimension = 3");
-}
-
-template <>
-ElasticSolid<3> make_deforming_solid<3>(const SolidSpec& spec, const ShapeOptions& options) {
-  ElasticSolid<3> solid;
-  solid.sequence = std::make_shared<const MeshSequence>(spec.shape, spec.sequence, options);
-  solid.body = body_of_points<3>(solid.sequence->first());
-  solid.surface = surface_of_mesh<3>(solid.sequence->first());
-  solid.patches = find_patches<3>(solid.surface, {});
+template <int Dim>
+ElasticSolid<Dim> make_deforming_solid(const SolidSpec& spec, const ShapeOptions& options) {
+  ElasticSolid<Dim> solid;
+  solid.sequence = std::make_shared<const MeshSequence>(Dim, spec.shape, spec.sequence, options);
+  solid.body = body_of_points<Dim>(solid.sequence->first());
+  solid.surface = surface_of_mesh<Dim>(solid.sequence->first());
+  solid.patches = find_patches<Dim>(solid.surface, {});
   solid.body_force = {"0", "0", "0"};
   return solid;
 }
+
+template ElasticSolid<2> make_deforming_solid<2>(const SolidSpec&, const ShapeOptions&);
+template ElasticSolid<3> make_deforming_solid<3>(const SolidSpec&, const ShapeOptions&);
 
 }  // namespace seiche

@@ -6,7 +6,7 @@ namespace seiche {
 
 // Reads the meshes of spec.sequence. The solid has the points of the first mesh as nodes, no elements, and a mass that
 // only keeps its rows of the coupled system regular. Throws Error(bad_input) naming spec.shape.where: a file is
-// missing, open or crosses itself, or its triangles are others than those of the first.
+// missing, open or crosses itself, its facets are others than those of the first, or points cross between two meshes.
 template <int Dim>
 ElasticSolid<Dim> make_deforming_solid(const SolidSpec& spec, const ShapeOptions& options);
 

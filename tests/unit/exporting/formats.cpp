@@ -71,6 +71,7 @@ TEST_CASE("A USD file lists a body once and its poses at all frames", "[exportin
   CHECK(count(text, ": [3, 3, 3, 3]") == 2);  // the body's, the liquid's where it changed
   CHECK(count(text, ": [3, 3, 3]") == 1);
   CHECK(count(text, "vector3f[] velocities.timeSamples") == 1);
+  CHECK(count(text, "float3[] extent.timeSamples") == 2);
 }
 
 TEST_CASE("Parts of a USD file that was not finished are removed", "[exporting]") {

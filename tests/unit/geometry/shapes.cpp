@@ -291,8 +291,8 @@ TEST_CASE("an expression that is not a number somewhere says where") {
   CHECK_THROWS_WITH((*phi)(Vec3(-1, 0, 0)), Catch::Contains("is nan at (-1, 0, 0)"));
 }
 
-TEST_CASE("a mesh is no shape of a 2D scene") {
-  CHECK_THROWS_WITH(make_shape<2>(spec_of("mesh"), options), Catch::Contains("3D"));
+TEST_CASE("a mesh without a file is refused in 2D") {
+  CHECK_THROWS_WITH(make_shape<2>(spec_of("mesh"), options), Catch::Contains("cannot be read"));
 }
 
 TEST_CASE("the table names every shape of the scene format once") {

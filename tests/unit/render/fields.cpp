@@ -242,7 +242,7 @@ TEST_CASE("outlines of static and prescribed solids become those of the scene's 
     return solids;
   };
   frame.solids = sampled(0);
-  refine_outlines(frame, {box});
+  refine_surfaces(frame, {box});
   std::vector<Vec3> corners;
   for (const auto& segment : frame.solids.mesh.segments) corners.push_back(frame.solids.mesh.points[segment[0]]);
   REQUIRE(corners.size() == 4);
@@ -251,7 +251,7 @@ TEST_CASE("outlines of static and prescribed solids become those of the scene's 
     CHECK(std::any_of(corners.begin(), corners.end(), is_it));
   }
   frame.solids = sampled(0.3);  // elsewhere than the scene has it: the frame is right
-  refine_outlines(frame, {box});
+  refine_surfaces(frame, {box});
   CHECK(frame.solids.mesh.points[0] == Vec3(0.62, 0.23, 0));
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/scene.h"
 #include "run/estimate.h"
+#include "run/expected_speed.h"
 #include "scene/reader.h"
 
 namespace start_table_tests {
@@ -101,6 +102,24 @@ TEST_CASE("estimates grow with the grid and take trial steps") {
   CHECK(tried.memory == 1e12);
   CHECK(tried.steps >= 1000);
   CHECK(tried.seconds == 2 * tried.steps);
+}
+
+TEST_CASE("estimates know the speeds of kinematic solids and of liquid that enters") {
+  Scene scene = tank("");
+  CHECK(speed_of_kinematic_solids(scene, {}) == 0);
+  CHECK(speed_of_feeds(scene) == 0);
+  SolidSpec wheel;
+  wheel.kind = SolidKind::kinematic;
+  wheel.motion.translate = {"0.5*t", "0", "0"};
+  wheel.motion.degrees = "180*t";
+  scene.solids = {wheel};
+  const SurfaceMesh surface{{{0.2, 0, 0}, {0, 0.1, 0.4}}, {}, {}};
+  CHECK(speed_of_kinematic_solids(scene, {surface}) == Approx(0.5 + 0.2 * M_PI).epsilon(1e-6));
+  SideSpec& lid = scene.domain.sides[1][1];
+  lid.type = SideType::inflow;
+  lid.velocity = {"0", "-t", "0"};
+  const double fall = scene.domain.upper[1] - scene.domain.lower[1], end = scene.time.end;
+  CHECK(speed_of_feeds(scene) == Approx(std::sqrt(end * end + 2 * 9.81 * fall)));
 }
 
 }  // namespace start_table_tests

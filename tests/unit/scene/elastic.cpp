@@ -196,12 +196,14 @@ TEST_CASE("an elastic solid may be read from a file of elements, another not") {
                  Contains("element_size has no effect, because the elements come from '"));
     }
   }
-  CHECK_NOTHROW(parse(from(small_scene, "body.obj", keys + "element_size = 0.1\n"), {}, folder.path()));
+  for (const std::string& start : {small_scene, flat_scene})
+    CHECK_NOTHROW(parse(from(start, "body.obj", keys + "element_size = 0.1\n"), {}, folder.path()));
   CHECK_THAT(fault(from(small_scene, "body.obj", keys), {}, folder.path()), Contains("needs 'element_size'"));
-  CHECK_THAT(fault(from(flat_scene, "body.obj", keys + "element_size = 0.1\n"), {}, folder.path()),
-             Contains("in 2D use elements in .msh, .vtu or .mesh"));
+  folder.write("body.stl", "x");
+  CHECK_THAT(fault(from(flat_scene, "body.stl", keys + "element_size = 0.1\n"), {}, folder.path()),
+             Contains("a mesh in 2D is a closed outline") && Contains("or elements in .msh, .vtu or .mesh"));
   CHECK_THAT(fault(from(small_scene, "body.msh", "kind = \"rigid\"\ndensity = 1\n"), {}, folder.path()),
-             Contains("tetrahedra are for elastic solids"));
+             Contains("elements are for elastic solids"));
 }
 
 // Independent of the writer: compares the data.

@@ -48,8 +48,9 @@ TEST_CASE("sequences that cannot be are refused") {
   check_refused(
       small_scene + "[[solid]]\nkind = \"static\"\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n" + sequence,
       "is only for kind = \"deforming\"");
-  const std::string flat = flat_scene + "[[solid]]\nkind = \"deforming\"\nshape = \"mesh\"\nfile = \"wing.obj\"\n";
-  CHECK_THAT(fault(flat + sequence, {}, folder.path()), Contains("triangle meshes are for dimension = 3"));
+  folder.write("wing.0.ply", "ply\n");
+  const std::string flat = flat_scene + "[[solid]]\nkind = \"deforming\"\nshape = \"mesh\"\nfile = \"wing.0.ply\"\n";
+  CHECK_THAT(fault(flat + sequence, {}, folder.path()), Contains("a mesh in 2D is a closed outline"));
 }
 
 }  // namespace sequences_tests
