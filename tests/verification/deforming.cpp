@@ -100,6 +100,17 @@ TEST_CASE("a ball that grows lifts the water by its volume", "[deforming][long]"
   }
 }
 
+TEST_CASE("a later mesh that is thinner than a cell is refused by its file", "[deforming]") {
+  Meshes meshes;
+  SurfaceMesh ball = ball_mesh({0.5, 0.5, 0.5}, 0.2);
+  meshes.add(ball);
+  for (Vec3& p : ball.points) p[1] = 0.5 + 0.1 * (p[1] - 0.5);
+  meshes.add(ball);
+  Scene s = test::box_scene(3, 16);
+  s.solids = {deforming(meshes, 20, false)};
+  CHECK_THROWS_WITH(make_simulation(s, Communicator()), Catch::Matchers::Contains("body.01.obj"));
+}
+
 TEST_CASE("a ball cannot grow in a closed box full of water", "[deforming]") {
   Meshes meshes;
   add_growing_ball({0.5, 0.5, 0.5}, meshes);
