@@ -42,11 +42,12 @@ double current_against(const std::vector<WaveMode>& modes, double depth) {
   return -carried / depth;
 }
 
-// Dean and Dalrymple, Water Wave Mechanics (1991), section 11.3: second harmonic bound to the wave.
+// Dean and Dalrymple, Water Wave Mechanics (1991), section 11.3: second harmonic bound to the wave. Hyperbolic
+// functions over exp(kh), so that deep liquid does not overflow.
 WaveMode bound_harmonic(const WaveMode& first, double depth) {
-  const double kh = first.number * depth, s = std::sinh(kh), c = std::cosh(kh), a = first.elevation;
-  const double elevation = first.number * a * a / 4 * c * (2 + std::cosh(2 * kh)) / (s * s * s);
-  const double speed = 0.75 * a * a * first.frequency * first.number * std::cosh(2 * kh) / (s * s * s * s);
+  const double a = first.elevation, e = std::exp(-2 * first.number * depth), r = 1 - e;
+  const double elevation = first.number * a * a / 2 * (1 + e) * (1 + 4 * e + e * e) / (r * r * r);
+  const double speed = 6 * a * a * first.frequency * first.number * e * (1 + e * e) / (r * r * r * r);
   return {elevation, speed, 2 * first.number, 2 * first.frequency, 2 * first.phase};
 }
 

@@ -13,6 +13,7 @@ namespace seiche {
 namespace {
 
 constexpr double two_pi = 2 * M_PI;
+constexpr const char* needs_constant_gravity = "waves need gravity that does not change in time; give it numbers";
 
 // Amplitudes of the paddle for those of the waves.
 std::vector<PaddleTerm> irregular_terms(const WavesSpec& waves, double gravity) {
@@ -25,9 +26,9 @@ std::vector<PaddleTerm> irregular_terms(const WavesSpec& waves, double gravity) 
 // The second harmonic of a piston that makes Stokes waves of second order without free waves at 2 w: Madsen, On the
 // generation of long waves, J. Geophys. Res. 76 (1971).
 PaddleTerm second_harmonic(const WavesSpec& waves, double frequency, double kh) {
-  const double ratio = height_over_stroke("piston", kh), sinh = std::sinh(kh);
-  const double amplitude =
-      waves.height * waves.height / (32 * waves.depth) * (3 * std::cosh(kh) / (sinh * sinh * sinh) - 2 / ratio);
+  const double ratio = height_over_stroke("piston", kh), e = std::exp(-2 * kh);
+  const double amplitude = waves.height * waves.height / (32 * waves.depth) *
+                           (12 * e * (1 + e) / std::pow(1 - e, 3) - 2 / ratio);  // 3 cosh kh / sinh^3 kh
   return {amplitude, 2 * frequency, 0};
 }
 
@@ -57,6 +58,33 @@ std::string fault_of_height(const WavesSpec& waves, double gravity) {
   return {};
 }
 
+// Theories of nonlinear waves hold no longer; empty: they do.
+std::string fault_of_theory(const WavesSpec& waves, const WaveTrain& train) {
+  constexpr double most_second = 0.25, most_last = 1e-3, ripple = 1e-3;  // of a_1, of a_1, of the height
+  const std::vector<WaveMode>& modes = train.modes;
+  const double a = modes.front().elevation, last = modes.back().elevation;
+  const auto fault = [&](const std::string& why) {
+    return fmt::format("waves {:g} m high with a period of {:g} s in {:g} m of depth are beyond theory = \"{}\": {}",
+                       waves.height, waves.period, waves.depth, waves.theory, why);
+  };
+  if (waves.theory == "stokes" && last > most_second * a)
+    return fault(
+        fmt::format("its second harmonic has {:.2g} of the first, more than a quarter; lower the height or the "
+                    "period, or take theory = \"nonlinear\" at a side",
+                    last / a));
+  if (waves.theory != "nonlinear" || waves.height == 0) return {};
+  if (std::abs(last) > most_last * a)
+    return fault(
+        fmt::format("its last mode still has {:.2g} of the first; lower the height or the period", std::abs(last) / a));
+  constexpr int places = 200;  // from crest to trough
+  for (int n = 0; n < places; ++n) {
+    const double s = M_PI / modes.front().number / places, from = -M_PI / 2 / modes.front().number;
+    if (train.elevation(from + (n + 1) * s, 0) > train.elevation(from + n * s, 0) + ripple * waves.height)
+      return fault("its surface rises between crest and trough; lower the height or the period");
+  }
+  return {};
+}
+
 bool is_horizontal(const Vec3& direction, const Vec3& up) {
   constexpr double level = 1e-6;  // of |direction|, off the horizontal
   return direction.norm() > 0 && std::abs(direction.normalized().dot(up)) <= level;
@@ -67,6 +95,7 @@ class Expansion {
   Expansion(SceneContext& context, const TomlNode& root, const Scene& scene) : context_(context), root_(root) {
     const Vec3 g = Gravity(scene.gravity).at(0);
     gravity_ = g.norm();
+    is_constant_ = VectorExpression(scene.gravity.formula).is_constant();
     up_ = gravity_ > 0 ? Vec3(-g / gravity_) : Vec3::UnitY();
     dimension_ = scene.dimension;
   }
@@ -94,19 +123,22 @@ class Expansion {
  private:
   std::string fault_of(const WavesSpec& waves) const {
     const bool is_flap = waves.paddle == "flap";
+    if (!is_constant_) return needs_constant_gravity;
     if (gravity_ == 0) return "waves need gravity";
     if (!is_horizontal(waves.direction, up_)) return "direction must be horizontal";
     if (is_flap && !waves.hinge) return "a flap needs its hinge, a point of its axis at the bottom";
     if (!is_flap && waves.hinge) return "a piston has no hinge";
     if (waves.theory == "stokes" && (is_flap || !waves.spectrum.empty()))
       return "theory = \"stokes\" is for regular waves of a piston";
-    return fault_of_height(waves, gravity_);
+    const std::string fault = fault_of_height(waves, gravity_);
+    return fault.empty() && waves.theory == "stokes" ? fault_of_theory(waves, wave_train(waves, gravity_)) : fault;
   }
 
   SceneContext& context_;
   const TomlNode& root_;
   Vec3 up_;
   double gravity_ = 0;
+  bool is_constant_ = true;
   int dimension_ = 3;
 };
 
@@ -122,6 +154,7 @@ std::string excluded_by_waves(const Scene& scene) {
 // Fault of waves at the side along an axis, or "".
 std::string fault_of_side(const Scene& scene, const SideWavesSpec& waves, int axis) {
   const Vec3 g = Gravity(scene.gravity).at(0);
+  if (!VectorExpression(scene.gravity.formula).is_constant()) return needs_constant_gravity;
   if (!(g.norm() > 0)) return "waves need gravity";
   Eigen::Index vertical = 1;
   if (g.cwiseAbs().maxCoeff(&vertical) < g.norm() * (1 - 1e-12)) return "waves at sides need gravity along an axis";
@@ -179,7 +212,8 @@ void check_side_waves(SceneContext& context, const TomlNode& root, const Scene& 
       const std::string path = fmt::format("domain.boundary.{}_{}.waves", "xyz"[axis], side == 0 ? "lower" : "upper");
       std::string fault = fault_of_side(scene, spec.waves, axis);
       try {
-        if (fault.empty()) (void)wave_train(spec.waves, Gravity(scene.gravity).at(0).norm());
+        if (fault.empty())
+          fault = fault_of_theory(spec.waves, wave_train(spec.waves, Gravity(scene.gravity).at(0).norm()));
       } catch (const Error& error) {
         fault = error.what();
       }

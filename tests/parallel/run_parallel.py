@@ -138,9 +138,11 @@ spring_damping = 1.0
 """
 
 
-# A ball that bounces off the floor in the water of the dam, and off a second one that falls onto it.
+# A ball that bounces off the floor in the water of the dam, and off a second one that falls onto it. A third one hits the
+# wall as the tenth step ends.
 BOUNCE = TWENTY_STEPS + rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.09]\nradius = 0.07\nvelocity = [0.0, -1.0]', 900.0)
 BOUNCE += rigid("pebble", 'shape = "sphere"\ncenter = [0.2, 0.37]\nradius = 0.05\nvelocity = [0.1, -1.5]', 2500.0)
+BOUNCE += rigid("shot", 'shape = "sphere"\ncenter = [0.865, 0.35]\nradius = 0.04\nvelocity = [2.0, 0.0]', 2500.0)
 BOUNCE += """\
 [[contact]]
 between = ["ball", "pebble"]
@@ -521,6 +523,15 @@ def bounces_ranks_agree_2d(bench):
     ranks_agree(bench, BOUNCE, (3,))
     expect(max(int(row["contacts"]) for row in stats(bench.path("one"))) > 0, "nothing is in contact")
     resumed_ranks_agree(bench, BOUNCE)
+    impacts = impacts_in(bench.path("parts") / "checkpoints" / "00000010" / "rank.00000")
+    expect(len(impacts) > 0 and impacts[2] < 2, f"no impact is under way at the checkpoint: {impacts}")
+
+
+def impacts_in(checkpoint):
+    """Numbers of the impacts in a checkpoint, as coupling/state/checkpoint_state.cpp packs them."""
+    data = checkpoint.read_bytes()
+    at = data.index(b"impacts") + len("impacts")
+    return numpy.frombuffer(data, count=int.from_bytes(data[at:at + 8], "little") // 8, offset=at + 8)
 
 
 def beating_ranks_agree_3d(bench):

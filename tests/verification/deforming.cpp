@@ -122,6 +122,17 @@ TEST_CASE("a disc that grows lifts the water by its area", "[deforming]") {
   for (const int cells : {16, 32}) CHECK(error_of_rise<2>(cells) < 0.01);
 }
 
+TEST_CASE("a later mesh that is thinner than a cell is refused by its file", "[deforming]") {
+  Meshes meshes;
+  SurfaceMesh ball = ball_mesh({0.5, 0.5, 0.5}, 0.2);
+  meshes.add(ball);
+  for (Vec3& p : ball.points) p[1] = 0.5 + 0.1 * (p[1] - 0.5);
+  meshes.add(ball);
+  Scene s = test::box_scene(3, 16);
+  s.solids = {deforming(meshes, 20, false)};
+  CHECK_THROWS_WITH(make_simulation(s, Communicator()), Catch::Matchers::Contains("body.01.obj"));
+}
+
 TEST_CASE("a ball cannot grow in a closed box full of water", "[deforming]") {
   Meshes meshes;
   add_growing_ball<3>({0.5, 0.5, 0.5}, meshes);

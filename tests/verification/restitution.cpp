@@ -77,6 +77,112 @@ TEST_CASE("two balls that meet keep momentum and rebound", "[restitution]") {
   }
 }
 
+namespace {
+
+double momentum_of(const Simulation& sim, const Scene& s, int axis) {
+  double sum = 0;
+  for (std::size_t k = 0; k < s.solids.size(); ++k) sum += s.solids[k].rigid.density * sim.solids()[k].velocity[axis];
+  return sum;
+}
+
+struct Energies {
+  double highest, last;  // over that at the start
+};
+
+Energies energies_of(const Scene& s, double end) {
+  const auto sim = make_simulation(s, Communicator());
+  const StepStats start = sim->stats();
+  const double first = start.kinetic_energy + start.potential_energy;
+  double highest = first, last = first;
+  while (sim->time() < end) {
+    const StepStats now = sim->step(end);
+    last = now.kinetic_energy + now.potential_energy;
+    highest = std::max(highest, last);
+  }
+  return {highest / first, last / first};
+}
+
+// Nine turning boxes, three of them heavy, thrown at each other in a closed box.
+Scene thrown_boxes(double e) {
+  Scene s = test::box_scene(2, 16, 0.64);
+  s.gravity = {0, 0, 0};
+  const double speeds[9][3] = {{3.1, 2.6, 4.2},  {3.1, -0.4, -4.9}, {2.8, -3.3, 5.0},
+                               {0.0, 3.1, -1.0}, {-0.3, -0.3, 4.3}, {0.2, -2.8, -4.4},
+                               {-3.5, 3.3, 3.2}, {-3.0, 0.2, 3.8},  {-2.7, -3.1, 2.3}};
+  for (int n = 0; n < 9; ++n) {
+    s.solids.push_back(test::rigid_box(fmt::format("box{}", n), {0.14, 0.14, 0},
+                                       {0.13 + 0.18 * (n / 3), 0.13 + 0.18 * (n % 3), 0}, n % 3 == 1 ? 3000 : 1000));
+    s.solids.back().rigid.velocity = {speeds[n][0], speeds[n][1], 0};
+    s.solids.back().rigid.angular_velocity = {0, 0, speeds[n][2]};
+  }
+  set_restitution(s, e, {"*"});
+  set_restitution(s, e);
+  return s;
+}
+
+// Nine discs that fall and are thrown, in a closed box.
+Scene falling_discs(double e) {
+  Scene s = test::box_scene(2, 16, 0.64);
+  s.gravity = {0, -g, 0};
+  for (int n = 0; n < 9; ++n) {
+    const double x = n / 3, y = n % 3;
+    s.solids.push_back(
+        test::rigid_ball(fmt::format("ball{}", n), 0.07, {0.12 + 0.19 * x + 0.01 * y, 0.11 + 0.2 * y, 0}, 1000));
+    s.solids.back().rigid.velocity = {0.9 - 0.8 * x + 0.1 * y, -0.9 + 0.6 * y, 0};
+  }
+  set_restitution(s, e, {"*"});
+  set_restitution(s, e);
+  return s;
+}
+
+// A box with spin falls onto the floor.
+Scene spinning_box(double e) {
+  Scene s = test::box_scene(2, 32, 0.64);
+  s.gravity = {0, -g, 0};
+  s.solids = {test::rigid_box("box", {0.14, 0.06, 0}, {0.27, 0.23, 0}, 1000)};
+  s.solids[0].rigid.velocity = {0.5, -1, 0};
+  s.solids[0].rigid.angular_velocity = {0, 0, 3};
+  set_restitution(s, e);
+  return s;
+}
+
+}  // namespace
+
+// Three balls in a row: the last one leaves with nearly the speed of the first.
+TEST_CASE("in a cradle an impact passes through", "[restitution]") {
+  for (const int dim : {2, 3})
+    for (const double gap : {0.005, 0.0005}) {
+      Scene s = test::box_scene(dim, 16, 0.64);
+      s.gravity = {0, 0, 0};
+      const double z = dim == 3 ? 0.32 : 0, speed = 2;
+      for (int n = 0; n < 3; ++n) {
+        const double x = n == 0 ? 0.12 : 0.25 + (n - 1) * (0.1 + gap);
+        s.solids.push_back(test::rigid_ball(fmt::format("ball{}", n), 0.05, {x, 0.32, z}, 1000));
+      }
+      s.solids[0].rigid.velocity = {speed, 0, 0};
+      set_restitution(s, 1, {"*"});
+      const auto sim = make_simulation(s, Communicator());
+      const double before = momentum_of(*sim, s, 0);
+      while (sim->time() < 0.1) (void)sim->step(0.1);
+      const auto balls = sim->solids();
+      WARN(dim << "D, gap " << gap << ": " << balls[0].velocity[0] << ", " << balls[1].velocity[0] << " and "
+               << balls[2].velocity[0] << " m/s");
+      CHECK(balls[2].velocity[0] == Approx(speed).epsilon(0.03));
+      CHECK(momentum_of(*sim, s, 0) == Approx(before).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("many impacts at once gain no energy", "[restitution]") {
+  for (const double e : {0.0, 0.5, 0.8, 1.0}) {
+    const Energies boxes = energies_of(thrown_boxes(e), 0.2), discs = energies_of(falling_discs(e), 0.5),
+                   spinning = energies_of(spinning_box(e), 0.6);
+    WARN("e = " << e << ": at most " << boxes.highest << ", " << discs.highest << " and " << spinning.highest
+                << " of the energy at the start; in the end " << boxes.last << ", " << discs.last << " and "
+                << spinning.last);
+    for (const Energies& all : {boxes, discs, spinning}) CHECK(all.highest < 1.001);
+  }
+}
+
 TEST_CASE("a stack of boxes with restitution comes to rest", "[restitution]") {
   Scene s = test::box_scene(2, 32);
   s.gravity = {0, -g, 0};

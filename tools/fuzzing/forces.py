@@ -69,10 +69,19 @@ def make_contacts(c, solids):
         here["collide"] = False
     else:
         here["friction"] = c.rng.choice([0.0, 0.4, 2.0])
-        rigid = names_of(solids, ("rigid",))
-        if rigid and c.rng.random() < 0.5:
-            here["between"] = [c.rng.choice(rigid), "domain"]
-            here["restitution"] = c.rng.choice([0.0, 0.5, 1.0])
-    for key in here:
-        c.use("contact[]", key)
-    return [here]
+    made = [here] + bounces(c, solids)
+    for contact in made:
+        for key in contact:
+            c.use("contact[]", key)
+    return made
+
+
+def bounces(c, solids):
+    """Restitution of all rigid solids with each other and with the sides, or of one with the sides."""
+    rigid = names_of(solids, ("rigid",))
+    if not rigid or c.rng.random() < 0.5:
+        return []
+    if c.rng.random() < 0.5:
+        return [{"between": [c.rng.choice(rigid), "domain"], "restitution": c.rng.choice([0.0, 0.5, 1.0])}]
+    pairs = [[a, b] for n, a in enumerate(rigid) for b in rigid[n + 1:]] + [[a, "domain"] for a in rigid]
+    return [{"between": pair, "restitution": c.rng.choice([0.0, 0.5, 0.9, 1.0])} for pair in pairs[:20]]

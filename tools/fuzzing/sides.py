@@ -54,11 +54,12 @@ def side_velocity(c, here):
 
 
 def side_waves(c, _):
-    """Long waves, far from breaking; none enter in one of four."""
+    """Long waves, far from breaking; none enter in one of four. Theories of nonlinear ones hold for shorter ones."""
     depth = number(c.extent[1] * c.rng.uniform(0.3, 0.8))
-    period = number(2 * math.pi * math.sqrt(depth / c.acceleration) * c.rng.uniform(1, 4))
-    table = {"depth": depth, "height": number(depth * c.rng.choice([0.0, 0.01, 0.05, 0.2])), "period": period}
     kind = c.rng.choice(["airy", "stokes", "nonlinear", "jonswap", "pierson_moskowitz"])
+    longest = 1.5 if kind in ("stokes", "nonlinear") else 4
+    period = number(2 * math.pi * math.sqrt(depth / c.acceleration) * c.rng.uniform(1, longest))
+    table = {"depth": depth, "height": number(depth * c.rng.choice([0.0, 0.01, 0.05, 0.2])), "period": period}
     table["theory" if kind in ("airy", "stokes", "nonlinear") else "spectrum"] = kind
     table["ramp"] = number(c.end * c.rng.choice([0.0, 0.3, 1.0]))
     if table["height"] > 0:

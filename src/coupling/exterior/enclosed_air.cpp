@@ -56,7 +56,7 @@ class EnclosedAir : public Exterior<Dim> {
   void visit(const Domain<Dim>& domain, const Fluids&, int, FieldVisitor<Dim>& visitor) override {
     visitor.field("air", domain.layout.cells(), air_.label);
     visitor.numbers("air.volume", air_.volume);
-    visitor.numbers("air.excess", air_.excess);
+    if (visitor.has("air.excess")) visitor.numbers("air.excess", air_.excess);  // not in earlier checkpoints
     visitor.number("air.lost", lost_);
     if (visitor.loads()) domain.halo.fill_ghosts({air_.label.data()});
   }

@@ -41,7 +41,7 @@ std::vector<ContactWall> closed_sides(const DomainSpec& d) {
 
 template <int Dim>
 ContactScene<Dim> make_contact_scene(const DomainSpec& extent, const Participants<Dim>& solids,
-                                     std::vector<std::array<int, 2>> apart, PairFrictions friction,
+                                     std::vector<std::array<int, 2>> apart, PairCoefficients friction,
                                      const OperatorPerturbation& perturbation) {
   std::vector<ContactBody> contact;
   for (std::size_t k = 0; k < solids.size(); ++k) {
@@ -259,7 +259,7 @@ double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt)
 
 #define SEICHE_INSTANTIATE(D)                                                                                      \
   template ContactScene<D> make_contact_scene<D>(const DomainSpec&, const Participants<D>&,                        \
-                                                 std::vector<std::array<int, 2>>, PairFrictions,                   \
+                                                 std::vector<std::array<int, 2>>, PairCoefficients,                \
                                                  const OperatorPerturbation&);                                     \
   template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);           \
   template std::string prescribed_across_periodic_sides<D>(const Domain<D>&, const State<D>&,                      \

@@ -15,7 +15,7 @@ struct TimeSpec;
 // Every side of the domain is a wall, except periodic and outflow sides.
 template <int Dim>
 ContactScene<Dim> make_contact_scene(const DomainSpec& extent, const Participants<Dim>& solids,
-                                     std::vector<std::array<int, 2>> apart, PairFrictions friction,
+                                     std::vector<std::array<int, 2>> apart, PairCoefficients friction,
                                      const OperatorPerturbation& perturbation);
 
 // Throws Error(bad_input), naming the pairs and depths: a body with unknowns touches or overlaps something at the

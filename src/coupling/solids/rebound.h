@@ -1,21 +1,34 @@
 #pragma once
-// Restitution of rigid solids by Poisson's hypothesis. Contact brings solids that meet to rest against each other; the
-// impulses with which it did so are kept, and those times the coefficient act once more in the next solve:
-//   v+ = v_c + e M^-1 N lambda,   v_c = v- + M^-1 N lambda,
-// with M the inertia of solids and liquid. Both momenta are kept. Energy: E(v+) = E(v_c) + e^2 (E(v-) - E(v_c)), as v_c
-// minimises E over v- + M^-1 N lambda.
+// Restitution of rigid solids by Poisson's hypothesis. Contact brings solids that meet to rest against each other; in
+// the next solve impulses at the same places make them rebound. docs/contact.md#restitution has the equations.
+#include "coupling/solids/impact_columns.h"
 #include "coupling/state/interaction.h"
 #include "coupling/state/setup.h"
 
 namespace seiche {
 
-// Impacts under way after a solve that led from `before` to `after`. `pairs`: impulses of contact in it, over the step
-// of dt (s) that led to `after`.
+// Impacts before and after one solve, whose velocities hold over the horizon (s).
 template <int Dim>
-Impacts impacts_after(const Setup<Dim>& setup, const State<Dim>& before, const State<Dim>& after,
-                      const std::vector<PairImpulse>& pairs, double dt);
+class ImpactsOfSolve {
+ public:
+  ImpactsOfSolve(const Setup<Dim>& setup, const State<Dim>& state, const SolidCoupling<Dim>& coupling, double horizon);
+  // Adds the rebounds that are due to `push`, the coupling's, as far as the energy goes that their impacts took. Empty,
+  // or what fails. Collective.
+  std::string act(InertiaProblem& problem, Eigen::VectorXd& push);
+  // Impacts under way after the solve over dt (s) found velocities v and impulses of contact between pairs.
+  Impacts after(const Eigen::VectorXd& v, const std::vector<PairImpulse>& pairs, double dt) const;
 
-// Adds the rebounds that are due.
+ private:
+  const Setup<Dim>& setup_;
+  const State<Dim>& state_;
+  const SolidCoupling<Dim>& coupling_;
+  double horizon_;
+  // Velocities before the solve; without contact and rebounds; without contact.
+  Eigen::VectorXd before_, alone_, free_;
+  double work_ = 0;  // of the rebounds, J
+};
+
+// Books the work of rebounds.
 template <int Dim>
 std::unique_ptr<const Interaction<Dim>> make_rebounds();
 

@@ -29,8 +29,8 @@ bool iterates_on_bodies(const Solids<Dim>& solids, const SolverSpec& solver, con
 
 // Solves for pressure and bodies. r.u_star and coupling.push are those without pressure.
 template <int Dim>
-void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
-                    const SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r) {
+void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid, SolidCoupling<Dim>& coupling,
+                    CoupledSolution<Dim>& r) {
   const Setup<Dim>& s = input.setup;
   const ProjectionInput<Dim>& in = input.liquid;
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();

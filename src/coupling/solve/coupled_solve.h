@@ -40,7 +40,7 @@ struct CoupledSolution {
   int newton_iterations = 0, contacts = 0, joint_turns = 0;
   bool friction_settled = true;          // ContactReport::friction
   Eigen::VectorXd solids;                // velocities of the bodies' unknowns
-  std::vector<PairImpulse> pairs;        // ContactReport::pairs
+  Impacts impacts;                       // State::impacts after the solve
   Eigen::VectorXd reactions;             // N: constraint forces on the unknowns, 0 for free ones
   std::vector<SolidLoad> viscous_loads;  // one a solid; empty: inviscid liquid
   ViscousPower viscous;                  // of viscous stress

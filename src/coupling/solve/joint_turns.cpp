@@ -55,6 +55,7 @@ JointTurns<Dim>::JointTurns(const SolidCoupling<Dim>& coupling, const Communicat
   close(v);
 }
 
+// K has all columns: solves with joints use factors, and only those without share columns out.
 template <int Dim>
 void JointTurns<Dim>::stiffen(const SparseMatrix& K) {
   if (K.nonZeros() == 0) return;

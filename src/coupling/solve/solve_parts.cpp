@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "coupling/solids/joint_motion.h"
+#include "coupling/solids/rebound.h"
 #include "coupling/state/solids.h"
 #include "grid/loops.h"
 #include "linalg/core/dense_factors.h"
@@ -148,9 +149,11 @@ Vector guessed_pressure(const CoupledInput<Dim>& in, const PressureRows<Dim>& ro
 }
 
 template <int Dim>
-Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Dim>& coupling,
-                             CoupledProblem<Dim>& problem, const InviscidLiquid<Dim>& inviscid,
-                             CoupledSolution<Dim>& r) {
+Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
+                             const InviscidLiquid<Dim>& inviscid, CoupledSolution<Dim>& r) {
+  ImpactsOfSolve<Dim> impacts(in.setup, in.state, coupling, in.horizon);
+  r.failure = impacts.act(problem, coupling.push);
+  if (!r.failure.empty()) return Eigen::VectorXd::Zero(problem.size());
   SolidsMinimum m = minimise_solids(in.setup, in.state, in.liquid.dt, in.horizon, coupling, problem, inviscid,
                                     in.solids ? *in.solids : Eigen::VectorXd());
   r.failure = m.failure;
@@ -159,7 +162,7 @@ Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Di
   r.joint_turns = coupling.joints ? coupling.joints->turns : 0;
   r.friction_settled = m.friction_settled;
   r.contact_power = contact_power(m.impulses, in);
-  r.pairs = std::move(m.pairs);
+  if (r.failure.empty()) r.impacts = impacts.after(m.velocity, m.pairs, in.liquid.dt);
   r.reactions = m.reaction / in.liquid.dt;
   const int earlier = r.report.iterations;
   r.report = problem.report();
@@ -188,16 +191,16 @@ void set_pressure(const CoupledInput<Dim>& in, const Vector& p, CoupledSolution<
   in.setup.domain.halo.fill_ghosts(r.pressure);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                   \
-  template void refuse_impossible_motion<D>(const CoupledInput<D>&, const PressureProblem<D>&,                  \
-                                            const SolidCoupling<D>&, const std::vector<int>&,                   \
-                                            const CoupledSolution<D>&);                                         \
-  template void refuse_unbalanced_chambers<D>(const CoupledInput<D>&, const PressureProblem<D>&,                \
-                                              const std::vector<int>&, const CoupledSolution<D>&);              \
-  template double liquid_tolerance<D>(const CoupledInput<D>&);                                                  \
-  template Vector guessed_pressure<D>(const CoupledInput<D>&, const PressureRows<D>&);                          \
-  template Eigen::VectorXd find_minimum<D>(const CoupledInput<D>&, const SolidCoupling<D>&, CoupledProblem<D>&, \
-                                           const InviscidLiquid<D>&, CoupledSolution<D>&);                      \
+#define SEICHE_INSTANTIATE(D)                                                                             \
+  template void refuse_impossible_motion<D>(const CoupledInput<D>&, const PressureProblem<D>&,            \
+                                            const SolidCoupling<D>&, const std::vector<int>&,             \
+                                            const CoupledSolution<D>&);                                   \
+  template void refuse_unbalanced_chambers<D>(const CoupledInput<D>&, const PressureProblem<D>&,          \
+                                              const std::vector<int>&, const CoupledSolution<D>&);        \
+  template double liquid_tolerance<D>(const CoupledInput<D>&);                                            \
+  template Vector guessed_pressure<D>(const CoupledInput<D>&, const PressureRows<D>&);                    \
+  template Eigen::VectorXd find_minimum<D>(const CoupledInput<D>&, SolidCoupling<D>&, CoupledProblem<D>&, \
+                                           const InviscidLiquid<D>&, CoupledSolution<D>&);                \
   template void set_pressure<D>(const CoupledInput<D>&, const Vector&, CoupledSolution<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -38,12 +38,11 @@ double liquid_tolerance(const CoupledInput<Dim>& input);
 template <int Dim>
 Vector guessed_pressure(const CoupledInput<Dim>& input, const PressureRows<Dim>& rows);
 
-// Minimises over the velocities of the bodies and returns them. Stores reactions, counts and report in r, and the
-// missing fluxes of cavities in the geometry.
+// Minimises over the velocities of the bodies and returns them, with the rebounds that are due in coupling.push. Stores
+// impacts, reactions, counts and report in r, and the missing fluxes of cavities in the geometry.
 template <int Dim>
-Eigen::VectorXd find_minimum(const CoupledInput<Dim>& input, const SolidCoupling<Dim>& coupling,
-                             CoupledProblem<Dim>& problem, const InviscidLiquid<Dim>& inviscid,
-                             CoupledSolution<Dim>& r);
+Eigen::VectorXd find_minimum(const CoupledInput<Dim>& input, SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
+                             const InviscidLiquid<Dim>& inviscid, CoupledSolution<Dim>& r);
 
 // Copies p into r.pressure and fills its ghosts.
 template <int Dim>

@@ -169,8 +169,8 @@ void SplitViscosity<Dim>::measure(CoupledSolution<Dim>& r) const {
 }
 
 template <int Dim>
-void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
-                          const SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r) {
+void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid, SolidCoupling<Dim>& coupling,
+                          CoupledSolution<Dim>& r) {
   const Setup<Dim>& s = in.setup;
   const double dt = in.liquid.dt;
   ViscousStep<Dim> viscous(s.domain, s.solids, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity,
@@ -202,9 +202,9 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   add_pressure(in, r, dt, r.u_star);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                       \
-  template class SplitViscosity<D>;                                                                                 \
-  template void solve_with_viscosity<D>(const CoupledInput<D>&, const PressureProblem<D>&, const SolidCoupling<D>&, \
+#define SEICHE_INSTANTIATE(D)                                                                                 \
+  template class SplitViscosity<D>;                                                                           \
+  template void solve_with_viscosity<D>(const CoupledInput<D>&, const PressureProblem<D>&, SolidCoupling<D>&, \
                                         CoupledSolution<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -34,6 +34,6 @@ class SplitViscosity {
 // Coupled: pressure, viscosity and bodies in one solve.
 template <int Dim>
 void solve_with_viscosity(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
-                          const SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r);
+                          SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r);
 
 }  // namespace seiche

@@ -170,28 +170,31 @@ void visit_joint(std::size_t k, JointState& joint, StateVisitor& visitor) {
   visit_sized(prefix + "bow_load", joint.bow_load, visitor);
 }
 
-// Eleven numbers an impulse: those of its impact come first.
+constexpr std::size_t numbers_of_impact = 10, numbers_of_impulse = 9;
+
+// Numbers of each impact, the last of them the count of its impulses, then those of the impulses.
 std::vector<double> packed(const Impacts& impacts) {
   std::vector<double> all;
-  for (const Impact& impact : impacts)
-    for (const Impact::Impulse& i : impact.impulses) {
-      const double due = impact.is_due ? 1 : 0;
-      all.insert(all.end(), {double(impact.first), double(impact.second), impact.approach, impact.driven, due});
-      all.insert(all.end(), i.point.begin(), i.point.end());
-      all.insert(all.end(), i.linear.begin(), i.linear.end());
-    }
+  for (const Impact& i : impacts) {
+    all.insert(all.end(), {double(i.first), double(i.second), double(i.stage), double(i.solves), i.approach, i.energy,
+                           i.share, i.response, i.work, double(i.impulses.size())});
+    for (const Impact::Impulse& one : i.impulses)
+      for (const Vec3& v : {one.first_arm, one.second_arm, one.linear}) all.insert(all.end(), v.begin(), v.end());
+  }
   return all;
 }
 
 Impacts unpacked(const std::vector<double>& all) {
-  constexpr std::size_t size = 11;
   Impacts impacts;
-  for (std::size_t n = 0; n + size <= all.size(); n += size) {
+  for (std::size_t n = 0; n + numbers_of_impact <= all.size();) {
     const double* v = all.data() + n;
-    const int first = int(v[0]), second = int(v[1]);
-    if (impacts.empty() || impacts.back().first != first || impacts.back().second != second)
-      impacts.push_back({first, second, v[2], v[3], v[4] != 0, {}});
-    impacts.back().impulses.push_back({Vec3(v[5], v[6], v[7]), Vec3(v[8], v[9], v[10])});
+    impacts.push_back({int(v[0]), int(v[1]), Impact::Stage(int(v[2])), int(v[3]), v[4], v[5], v[6], v[7], v[8], {}});
+    n += numbers_of_impact;
+    for (auto left = std::size_t(v[9]); left > 0 && n + numbers_of_impulse <= all.size(); --left) {
+      const double* x = all.data() + n;
+      impacts.back().impulses.push_back({Vec3(x[0], x[1], x[2]), Vec3(x[3], x[4], x[5]), Vec3(x[6], x[7], x[8])});
+      n += numbers_of_impulse;
+    }
   }
   return impacts;
 }

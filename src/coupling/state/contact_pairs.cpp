@@ -52,20 +52,12 @@ SharedPairs pairs_apart(const Scene& scene, SharedPairs jointed) {
   return jointed;
 }
 
-PairFrictions pair_frictions(const Scene& scene) {
-  PairFrictions frictions;
+PairCoefficients pair_coefficients(const Scene& scene, std::optional<double> ContactSpec::*member) {
+  PairCoefficients coefficients;
   for_each_contact(scene, [&](const std::array<int, 2>& pair, const ContactSpec& contact) {
-    if (contact.friction) frictions[pair] = *contact.friction;
+    if (contact.*member) coefficients[pair] = *(contact.*member);
   });
-  return frictions;
-}
-
-PairFrictions pair_restitutions(const Scene& scene) {
-  PairFrictions restitutions;
-  for_each_contact(scene, [&](const std::array<int, 2>& pair, const ContactSpec& contact) {
-    if (contact.restitution) restitutions[pair] = *contact.restitution;
-  });
-  return restitutions;
+  return coefficients;
 }
 
 }  // namespace seiche

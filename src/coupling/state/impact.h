@@ -7,15 +7,25 @@
 namespace seiche {
 
 struct Impact {
+  // Impulse of contact at a place, given by its arms from the centres of mass (m). The solids move along with them.
   struct Impulse {
-    Vec3 point, linear;  // m; N s on the first solid, the opposite on the second
+    Vec3 first_arm, second_arm, linear;  // N s on the first solid, the opposite on the second
+  };
+  enum class Stage : char {
+    meeting,  // contact brings them to rest against each other
+    due,      // the rebound acts in the coming solve
+    acted     // it was part of the last solve
   };
   int first = 0, second = 0;  // solids; second below 0: a side of the domain, as in PairImpulse
-  // Normal speed of approach where they touch, m/s: at first as they meet, then with what gravity adds on the way that
-  // is left. 0 once the rebound has acted in a solve.
+  Stage stage = Stage::meeting;
+  int solves = 0;  // since they met
+  // Speed of approach before this and all neighbouring impacts, with what forces add on the way that is left, m/s.
   double approach = 0;
-  double driven = 0;              // speed beside it that contact takes from them, from forces meanwhile, m/s
-  bool is_due = false;            // they have stopped approaching: the rebound acts in the coming solve
+  double energy = 0;  // that contact has taken from them; once due: that the rebound may give back, J (2D: J/m)
+  // Once due: the rebound over the impulses of contact, and the change of speed by it times its impulse, if there were
+  // no liquid (J).
+  double share = 0, response = 0;
+  double work = 0;                // of the rebound that has acted, J (2D: J/m)
   std::vector<Impulse> impulses;  // of contact since they met
 };
 

@@ -27,8 +27,8 @@ template <int Dim>
 struct Solids {
   std::vector<Body<Dim>> bodies;
   JointSet<Dim> joints;
-  PairFrictions restitutions;  // Newton's coefficients of pairs that have one, by pairs as those of friction
-  SharedPairs apart;           // pairs that joints or [[contact]] let reach into each other, ascending
+  PairCoefficients restitutions;  // of pairs that have one, by pairs as those of friction
+  SharedPairs apart;              // pairs that joints or [[contact]] let reach into each other, ascending
   SolidGeometry<Dim> geometry;
   Participants<Dim> at_start;
   Interactions<Dim> interactions;

@@ -153,14 +153,15 @@ Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const std::ve
                     const OperatorPerturbation& perturbation, std::vector<std::string>& notes)
     : bodies(make_bodies<Dim>(scene, notes)),
       joints(scene, bodies),
-      restitutions(pair_restitutions(scene)),
+      restitutions(pair_coefficients(scene, &ContactSpec::restitution)),
       apart(pairs_apart(scene, joints.pairs_apart())),
       geometry(domain.layout, domain.sides, bodies, apart),
       at_start(make_participants(bodies)),
       interactions(make_interactions(domain, bodies, joints, forces)),
       still_pieces(pieces_of_still_solids(domain, bodies)) {
   if (has_unknowns())
-    contact.emplace(make_contact_scene(scene.domain, at_start, apart, pair_frictions(scene), perturbation));
+    contact.emplace(make_contact_scene(scene.domain, at_start, apart, pair_coefficients(scene, &ContactSpec::friction),
+                                       perturbation));
 }
 
 template <int Dim>

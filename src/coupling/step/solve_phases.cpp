@@ -5,7 +5,6 @@
 
 #include "base/scene.h"
 #include "base/time_spec.h"
-#include "coupling/solids/rebound.h"
 #include "coupling/solve/coupled_solve.h"
 #include "coupling/solve/rheology_iteration.h"
 #include "coupling/step/checks.h"
@@ -142,6 +141,7 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   out.friction_settled = solution.friction_settled;
   out.separation_error = solution.separation_error;
   out.failure = solution.failure;
+  out.state.impacts = solution.impacts;
   out.state.pressure = solution.pressure;
   return solution;
 }
@@ -231,7 +231,6 @@ Attempt<Dim> solve_once(const SolveTask<Dim>& task, Moved<Dim> moved, const Visc
   CoupledSolution<Dim> solution = solve(task, viscosity, solves, moved.end.get(), out);
   if (out.failure.empty()) {
     restore(task, solution, moved.end.get(), out);
-    out.state.impacts = impacts_after(task.s, task.before, out.state, solution.pairs, task.times.dt);
     solves.solids = std::move(solution.solids);
   }
   return out;

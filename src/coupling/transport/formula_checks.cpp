@@ -30,6 +30,9 @@ std::string fault_at_side(const Domain<Dim>& domain, const DomainSpec& extent, i
   }
   for (int c = 0; c < Dim; ++c) {
     const double v = domain.sides.velocity(axis, side, c, x, t);
+    if (!std::isfinite(v) && spec.type == SideType::waves)
+      return fmt::format("{}.waves: the velocity of the waves at {} is not finite at t = {:g} s", key(),
+                         place_text<Dim>(x), t);
     if (!std::isfinite(v))
       return not_finite_text<Dim>(fmt::format("{}.velocity[{}]", key(), c), spec.velocity[c], v, x, t);
   }
@@ -43,7 +46,9 @@ std::string fault_of_sides(const Domain<Dim>& domain, const DomainSpec& extent, 
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
       const SideType type = domain.sides.type(a, side);
-      if (type != SideType::inflow && type != SideType::moving_wall && type != SideType::outflow) continue;
+      if (type != SideType::inflow && type != SideType::moving_wall && type != SideType::outflow &&
+          type != SideType::waves)
+        continue;
       for_each_index_in_order(domain.layout, faces_of_side(domain.layout, a, side), [&](Site f, const IVec<Dim>& i) {
         if (fault.empty() && g.faces.kind_at(a, f) != FaceKind::closed)
           fault = fault_at_side<Dim>(domain, extent, a, side, domain.layout.position(i, face_offset<Dim>(a)), t);

@@ -33,9 +33,11 @@ FieldValues<char> cells_near_outside(const Domain<Dim>& domain, const StepGeomet
   return near;
 }
 
-// True if the pose is that of the start, up to round-off for a body that joints hold: a billionth of a cell.
+// True if the pose is that of the start, up to round-off for a body that joints hold: a billionth of a cell. Bodies
+// that deform may have moved all the same.
 template <int Dim>
 bool is_as_at_start(const Body<Dim>& body, const Placement& placed, double h, bool held) {
+  if (body.deforms()) return false;
   const Pose start = body.pose(0), &now = placed.pose;
   if (!held)
     return start.displacement == now.displacement && start.rotation == now.rotation && placed.twist.at_rest() &&

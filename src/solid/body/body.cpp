@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/numbered_files.h"
 #include "geometry/shapes/closed_surface.h"
 #include "solid/body/deforming.h"
 #include "solid/body/thin_surface.h"
@@ -120,12 +121,21 @@ void Body<Dim>::make_deforming(const ShapeOptions& options, const Vec<Dim>& lowe
   elastic_ = std::make_unique<ElasticSolid<Dim>>(make_deforming_solid<Dim>(spec_, options));
   surface_ = elastic_->surface.facets;
   mass_.center = reference_ = mass_of_surface<Dim>(surface_, 1).center;
-  shape_ = make_shape<Dim>(spec_.shape, {options.cell_size, nullptr});
-  if (is_thinner_than(*this, options.cell_size, lower, upper))
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}: solid '{}' is thinner than a cell of {:g} m, through which a deforming solid cannot "
-                            "be seen; give its meshes thickness, or take smaller cells",
-                            spec_.shape.where, spec_.name, options.cell_size));
+  const SurfaceMesh first = surface_;
+  ShapeSpec shape = spec_.shape;
+  double t = spec_.sequence.start;
+  for (const std::filesystem::path& file : numbered_files(spec_.shape.file, spec_.sequence.meshes)) {
+    shape.file = file;
+    shape_ = make_shape<Dim>(shape, {options.cell_size, nullptr});
+    surface_.points = elastic_->sequence->points_at(t);
+    t += 1 / spec_.sequence.rate;
+    if (is_thinner_than(*this, options.cell_size, lower, upper))
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: solid '{}' is thinner than a cell of {:g} m in {}, where a deforming solid cannot "
+                              "be seen; give its meshes thickness, or take smaller cells",
+                              spec_.shape.where, spec_.name, options.cell_size, file.string()));
+  }
+  surface_ = first;
   shape_.reset();
 }
 

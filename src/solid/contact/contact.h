@@ -31,8 +31,8 @@ struct ContactBody {
   std::vector<char> pinned = {};
 };
 
-// Coulomb's coefficient of pairs of bodies, the lower index first; the second is -1 for all walls.
-using PairFrictions = std::map<std::array<int, 2>, double>;
+// Coefficients of pairs of bodies, the lower index first; the second is -1 for all walls.
+using PairCoefficients = std::map<std::array<int, 2>, double>;
 
 // The half-space behind the plane is closed to bodies. A wall has no friction coefficient of its own.
 struct ContactWall {
@@ -86,7 +86,8 @@ struct ContactReport {
   FrictionState friction = FrictionState::none;
   std::vector<BodyImpulse> impulses;  // from contact, one a body
   std::vector<PairImpulse> pairs;     // of pairs of bodies that do not deform, or of such a body and a wall
-  // Second derivatives of contact, friction and potential in Newton's last iteration, this rank's columns. Empty: none.
+  // Second derivatives of contact, friction and potential in Newton's last iteration, in the columns of
+  // InertiaProblem::columns() alone. Empty: none.
   Eigen::SparseMatrix<double> hessian = {};
 };
 
@@ -99,7 +100,7 @@ class ContactScene {
   // `friction`: coefficients of pairs in place of those of both bodies. Throws Error(bad_input) on indices out of
   // range.
   ContactScene(const std::vector<ContactBody>& bodies, const std::vector<ContactWall>& walls,
-               std::vector<std::array<int, 2>> apart = {}, PairFrictions friction = {});
+               std::vector<std::array<int, 2>> apart = {}, PairCoefficients friction = {});
   const Data& data() const { return *data_; }
 
  private:

@@ -34,7 +34,7 @@ void number(const ContactBody& body, typename ContactScene<Dim>::Data& data) {
 
 template <int Dim>
 ContactScene<Dim>::ContactScene(const std::vector<ContactBody>& bodies, const std::vector<ContactWall>& walls,
-                                std::vector<std::array<int, 2>> apart, PairFrictions friction) {
+                                std::vector<std::array<int, 2>> apart, PairCoefficients friction) {
   auto data = std::make_shared<Data>();
   data->apart = std::move(apart);
   data->pair_friction = std::move(friction);

@@ -42,7 +42,7 @@ struct ContactScene<Dim>::Data {
   std::vector<int> node_count;            // of each deformable body's mesh; 0 for others
   int size = 0;                           // of the stacked velocities
   std::vector<std::array<int, 2>> apart;  // pairs of bodies that never touch, ascending
-  PairFrictions pair_friction;
+  PairCoefficients pair_friction;
 
   // For pairs with the lower index first.
   bool may_touch(int a, int b) const {

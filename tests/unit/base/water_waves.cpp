@@ -91,6 +91,17 @@ TEST_CASE("waves carry no net volume in a period") {
   CHECK(std::abs(net_share(waves_of(1, 0.05, 2, "stokes"))) < 1e-3);
 }
 
+// a_2 = k a^2/2 and no speed of 2 w in the limit; hyperbolic functions of kh overflow from 237 on.
+TEST_CASE("Stokes waves on deep liquid are finite") {
+  for (const double kh : {20.0, 237.0, 1000.0, 1e5}) {
+    const WavesSpec waves = waves_of(1000, 0.1, kh, "stokes");
+    const WaveTrain train = wave_train(waves, g);
+    CHECK(train.modes[1].elevation == Approx(train.modes[0].number * 0.05 * 0.05 / 2));
+    CHECK(train.modes[1].speed == Approx(0).margin(1e-12));
+    CHECK(std::isfinite(train.along(0.3, -1, 0.2)));
+  }
+}
+
 TEST_CASE("waves that no steady flow has are refused") {
   CHECK_THROWS_AS(wave_train(waves_of(1, 0.75, 3, "nonlinear"), g), Error);
 }

@@ -112,6 +112,10 @@ TEST_CASE("wave makers say what does not fit") {
   CHECK_THROWS_WITH(parse(paddle(regular + "0.1, theory = \"stokes\", spectrum = \"jonswap\"")),
                     Contains("for regular waves of a piston"));
   CHECK_THROWS_WITH(parse("gravity = [0, 0, 0]\n" + paddle(regular + "0.1")), Contains("waves need gravity"));
+  CHECK_THROWS_WITH(parse("gravity = [0, \"-9-t\", 0]\n" + paddle(regular + "0.1")),
+                    Contains("gravity that does not change in time"));
+  CHECK_THROWS_WITH(parse(paddle("depth = 1, period = 20, height = 0.05, theory = \"stokes\"")),
+                    Contains("its second harmonic has 1.9 of the first"));
   const std::string both =
       "[[solid]]\nkind = \"kinematic\"\nshape = \"box\"\nlower = [0, 0, 0]\nupper = [1, 1, 1]\n"
       "motion = { waves = { depth = 1, period = 2, height = 0.1 }, translate = [\"t\", 0, 0] }\n";
@@ -135,6 +139,18 @@ TEST_CASE("waves at sides are read, and say what does not fit") {
   CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.45")), Contains("break in 0.5 m of depth"));
   CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.05, level = 1.5")),
                     Contains("outside of the domain, 0 to 1 m"));
+  const auto long_side = [](const std::string& more) {
+    return small_scene + "[domain.boundary]\nx_lower = { type = \"waves\", waves = { depth = 1, level = 0.5, " + more +
+           " } }\n";
+  };
+  CHECK_THROWS_WITH(parse(long_side("height = 0.05, period = 20, theory = \"stokes\"")),
+                    Contains("its second harmonic has 1.9 of the first"));
+  CHECK_THROWS_WITH(parse(long_side("height = 0.5, period = 10, theory = \"nonlinear\"")),
+                    Contains("beyond theory = \"nonlinear\""));
+  CHECK_NOTHROW(parse(long_side("height = 0.05, period = 2, theory = \"stokes\"")));
+  CHECK_NOTHROW(parse(long_side("height = 0.2, period = 3, theory = \"nonlinear\"")));
+  CHECK_THROWS_WITH(parse("gravity = [0, \"-9.81*(1+0.1*sin(t))\", 0]\n" + side("x_lower", ", height = 0.05")),
+                    Contains("gravity that does not change in time"));
   CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.05, direction = [1, 1, 0]")), Contains("must be horizontal"));
   CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.05, theory = \"stokes\", spectrum = \"jonswap\"")),
                     Contains("is for regular waves"));
