@@ -23,11 +23,19 @@ Eigen::Matrix3d rotation_of(const RotationSpec& rotation) {
                     : Eigen::AngleAxisd(angle, rotation.axis.normalized()).toRotationMatrix();
 }
 
+// Rotations in the plane are about z, not -z, which scenes in 2D do not have.
+RotationSpec rotation_by(const Eigen::Matrix3d& matrix) {
+  const Eigen::AngleAxisd turn(matrix);
+  const double degrees = turn.angle() * 180 / M_PI;
+  const bool in_plane = turn.axis()[0] == 0 && turn.axis()[1] == 0;
+  if (turn.angle() == 0 || in_plane) return {Vec3::UnitZ(), turn.axis()[2] * degrees};
+  return {turn.axis(), degrees};
+}
+
 // Moves a solid by a rotation q about the origin, then by `way` (m).
 void move_solid(SolidSpec& solid, const Eigen::Quaterniond& q, const Vec3& way) {
   TransformSpec& placed = solid.shape.transform;
-  const Eigen::AngleAxisd turned(q.toRotationMatrix() * rotation_of(placed.rotate));
-  placed.rotate = {turned.axis(), turned.angle() * 180 / M_PI};
+  placed.rotate = rotation_by(q.toRotationMatrix() * rotation_of(placed.rotate));
   placed.translate = q * placed.translate + way;
   solid.motion.center = q * solid.motion.center + way;
   if (solid.rigid.center_of_mass) *solid.rigid.center_of_mass = q * *solid.rigid.center_of_mass + way;

@@ -95,7 +95,7 @@ TEST_CASE("joints: Andrews' squeezing mechanism ends where its reference does", 
       error[level] = std::max(error[level], std::abs(start[k] + sim->joints()[k].q - exact[k]));
   }
   WARN("angles off by " << error[0] << ", " << error[1]);
-  CHECK(error[1] <= 1e-4);  // 3.6e-5; 8.9e-6 at half the step. The bar is 1e-3
+  CHECK(error[1] <= 1e-4);  // 2.5e-5. The bar is 1e-3
   CHECK(test::order(error[0], error[1]) == Approx(2).margin(0.1));
 }
 

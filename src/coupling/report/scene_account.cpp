@@ -191,14 +191,18 @@ double extent_of(const Body<Dim>& body) {
 }
 
 template <int Dim>
-void account_joint(const Solids<Dim>& solids, const Joint& joint, SceneAccount& account) {
+std::string line_of_joint(const JointSpec& spec) {
+  const bool gear = spec.kind == JointKind::gear;
+  return fmt::format("joint   '{}', {}: '{}' and '{}'{}{}", spec.name, name_of(spec.kind), spec.between[0],
+                     spec.between[1], gear ? "" : fmt::format(", at {} m", rounded_place<Dim>(spec.at)),
+                     forces_text(spec));
+}
+
+template <int Dim>
+void warn_of_far_joint(const Solids<Dim>& solids, const Joint& joint, SceneAccount& account) {
   constexpr double far_off = 10;  // of the body's size
   const JointSpec& spec = joint.spec;
-  const bool gear = spec.kind == JointKind::gear;
-  account.start.others.push_back(fmt::format(
-      "joint   '{}', {}: '{}' and '{}'{}{}", spec.name, name_of(spec.kind), spec.between[0], spec.between[1],
-      gear ? "" : fmt::format(", at {} m", rounded_place<Dim>(spec.at)), forces_text(spec)));
-  if (gear) return;
+  if (spec.kind == JointKind::gear) return;
   double nearest = std::numeric_limits<double>::infinity();
   for (const int k : joint.solids) {
     if (k < 0) continue;  // the world
@@ -220,7 +224,9 @@ SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, cons
   account_liquid(domain, fluids, state, psi, account);
   account.start.solids = account_solids(solids, extent, account.warnings);
   const std::vector<Joint>& joints = solids.joints.list;
-  for (std::size_t j = 0; j < std::min(joints.size(), most_lines); ++j) account_joint(solids, joints[j], account);
+  for (const Joint& joint : joints) warn_of_far_joint(solids, joint, account);
+  for (std::size_t j = 0; j < std::min(joints.size(), most_lines); ++j)
+    account.start.others.push_back(line_of_joint<Dim>(joints[j].spec));
   if (joints.size() > most_lines)
     account.start.others.push_back(fmt::format("        and {} more joints", joints.size() - most_lines));
   return account;

@@ -98,6 +98,12 @@ std::vector<typename JointBow<Dim>::Inverse> JointBow<Dim>::inverse_masses(const
     for (int a = 0; a < Dim; ++a) own(a, a) = spec.fixed_position[std::size_t(a)] ? 0 : 1 / solid.body().mass().mass;
     std::array<bool, 3> fixed = spec.fixed_rotation;
     if (Dim == 2) fixed[0] = fixed[1] = true;
+    if (Dim == 3 && turns_freely(spec)) {
+      const PrincipalInertia principal = principal_inertia(solid.body().mass().inertia);
+      const Eigen::Matrix3d axes = R * principal.axes;
+      own.template bottomRightCorner<3, 3>() = axes * principal.inverse_moments().asDiagonal() * axes.transpose();
+      continue;
+    }
     own.template bottomRightCorner<3, 3>() = inverse_on(R * solid.body().mass().inertia * R.transpose(), fixed);
   }
   return inverse;
@@ -146,14 +152,14 @@ std::vector<typename JointBow<Dim>::Rate> JointBow<Dim>::loads(const std::vector
 template <int Dim>
 bool JointBow<Dim>::close(const JointedBodies& middle, const Eigen::VectorXd& v, std::vector<PlacedRow>& rows) {
   constexpr int most_turns = 20;
-  const std::vector<Inverse> inverse = inverse_masses(middle);
+  inverse_ = inverse_masses(middle);
   for (int turn = 0; turn < most_turns; ++turn) {
     rows = motion_.rows_after(displaced_bodies(middle, delta_, 1), v, motion_.horizon() / 2);
     const Eigen::VectorXd c = values(rows);
     const bool closed = motion_.excess(c) <= 1;
     if (!closed) y_ -= constraints_.multipliers(c);
     delta_ = loads(rows, y_);
-    for (std::size_t k = 0; k < delta_.size(); ++k) delta_[k] = inverse[k] * delta_[k];
+    for (std::size_t k = 0; k < delta_.size(); ++k) delta_[k] = inverse_[k] * delta_[k];
     if (closed && turn > 0) return true;
   }
   return false;
@@ -162,9 +168,9 @@ bool JointBow<Dim>::close(const JointedBodies& middle, const Eigen::VectorXd& v,
 namespace {
 
 // The torque of one end's impulse: half of the middle's, as the free rotation between them carries it to first order in
-// the interval `H`. sign: 1 for its start, -1 for its end.
-Vec3 carried_torque(const Vec3& torque, const Eigen::Matrix3d& inertia, const Vec3& omega, double H, double sign) {
-  const Vec3 turned = inverse_on(inertia, {false, false, false}) * torque;
+// the interval `H`. turned: inertia^-1 torque; sign: 1 for its start, -1 for its end.
+Vec3 carried_torque(const Vec3& torque, const Vec3& turned, const Eigen::Matrix3d& inertia, const Vec3& omega, double H,
+                    double sign) {
   return torque +
          sign * H / 4 * (-omega.cross(torque) - Vec3(inertia * omega).cross(turned) + inertia * omega.cross(turned));
 }
@@ -182,7 +188,7 @@ void JointBow<Dim>::set_impulses(const JointedBodies& middle, const Eigen::Vecto
   const JointedBodies bowed = displaced_bodies(middle, delta_, 1);
   for (int j = 0; j < int(now_.size()); ++j) points.push_back(point_of_joint(joints_, j, bowed));
   for (std::vector<Eigen::VectorXd>* ends : {&now_, &end_})
-    for (Eigen::VectorXd& own : *ends) own.resize(0);
+    for (Eigen::VectorXd& own : *ends) own.setZero();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!anchored_[i]) continue;
     const PlacedRow& row = rows[i];
@@ -197,8 +203,9 @@ void JointBow<Dim>::set_impulses(const JointedBodies& middle, const Eigen::Vecto
         const Eigen::Matrix3d& R = middle[k].pose.rotation;
         const Eigen::Matrix3d inertia = R * step_.state.solids[k].body().mass().inertia * R.transpose();
         const Vec3 omega = rates[k].template tail<3>(), torque = load.template tail<3>();
-        first.template tail<3>() = carried_torque(torque, inertia, omega, H, 1);
-        last.template tail<3>() = carried_torque(torque, inertia, omega, H, -1);
+        const Vec3 turned = inverse_[k].template bottomRightCorner<3, 3>() * torque;
+        first.template tail<3>() = carried_torque(torque, turned, inertia, omega, H, 1);
+        last.template tail<3>() = carried_torque(torque, turned, inertia, omega, H, -1);
       }
       now.segment<6>(6 * Eigen::Index(n)) += first;
       end.segment<6>(6 * Eigen::Index(n)) += last;

@@ -53,6 +53,7 @@ class JointBow {
   std::vector<char> anchored_, dry_;  // of each row of the motion: it takes part; no liquid touches its bodies
   bool any_ = false;
   ConstraintRows constraints_;              // of these rows, by the six motions of each place
+  std::vector<Inverse> inverse_;            // of the places in the middle that close() was given
   Eigen::VectorXd y_;                       // multipliers of delta: M delta = C'y
   std::vector<Rate> delta_;                 // of each place
   Eigen::VectorXd impulse_;                 // on the unknowns, at this solve

@@ -5,6 +5,7 @@
 #include "coupling/solids/kind_elastic.h"
 #include "coupling/solids/kind_rigid.h"
 #include "coupling/solids/rigid_coupling.h"
+#include "coupling/state/joint_messages.h"
 #include "linalg/core/body_matrix.h"
 #include "solid/rigid/motion.h"
 
@@ -35,18 +36,21 @@ class JointedMasses {
   int first(int solid) const { return first_[std::size_t(solid)]; }
   int size() const { return int(held_.size()); }
 
-  // Least displacements by which the rows' values change by `change`.
-  Eigen::VectorXd displacements(const std::vector<PlacedRow>& rows, const JointedBodies& bodies,
-                                const Eigen::VectorXd& change, const Communicator& ranks) const {
+  // Factors C M^-1 C' of the rows.
+  void factor(const std::vector<PlacedRow>& rows, const JointedBodies& bodies, const Communicator& ranks) {
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t i = 0; i < rows.size(); ++i)
       for (const auto& [k, part] : rows[i].parts) add_part(int(i), bodies[std::size_t(k)], part, entries);
     SparseMatrix C(Eigen::Index(rows.size()), size()), M(size(), size());
     C.setFromTriplets(entries.begin(), entries.end());
     M.setFromTriplets(mass_.begin(), mass_.end());
-    BodyMatrix inertia(ranks);
-    if (!inertia.set(M, C)) return Eigen::VectorXd::Zero(size());
-    return inertia.prescribed(change);
+    inertia_ = std::make_unique<BodyMatrix>(ranks);
+    if (!inertia_->set(M, C)) inertia_ = nullptr;
+  }
+
+  // Least displacements by which the values of the rows that were factored change by `change`.
+  Eigen::VectorXd displacements(const Eigen::VectorXd& change) const {
+    return inertia_ ? inertia_->prescribed(change) : Eigen::VectorXd::Zero(size());
   }
 
  private:
@@ -87,6 +91,7 @@ class JointedMasses {
   std::vector<int> bodies_, first_;  // first displacement of each solid; -1: it has none
   std::vector<char> held_;
   std::vector<Eigen::Triplet<double>> mass_;
+  std::unique_ptr<BodyMatrix> inertia_;
 };
 
 // Bodies in trial places.
@@ -143,23 +148,28 @@ void set_shown(const Participants<Dim>& on_way, const std::vector<int>& bodies, 
 
 }  // namespace
 
-// Gauss-Newton on c(x) = 0: x <- x - M^-1 C'W^+ c.
+// Gauss-Newton on c(x) = 0: x <- x - M^-1 C'W^+ c. A factor serves as long as gaps fall fast.
 template <int Dim>
 std::string close_joints(const JointSet<Dim>& joints, const Communicator& ranks, double time, bool shown,
                          State<Dim>& state) {
-  constexpr double good_enough = 1e-9;
+  constexpr double good_enough = 1e-9, fast = 0.05;
   Participants<Dim> solids = state.solids;
-  const JointedMasses<Dim> masses(joints, solids);
+  JointedMasses<Dim> masses(joints, solids);
   std::vector<double> near;
   for (const JointState& joint : state.joints) near.push_back(joint.shown_q);
   std::vector<PlacedRow> rows;
   bool moved = false;
+  double before = 0;
   for (int turn = 0; turn < most_turns; ++turn) {
     const JointedBodies bodies = jointed_bodies(joints, solids, time);
     near = coordinates(joints, bodies, near);
     rows = constraints_of(joints, state.joints, bodies, near, time);
     if (open_joints(joints, rows, all_closed).empty()) break;
-    displace(masses, masses.displacements(rows, bodies, -values_of(rows), ranks), solids);
+    const Eigen::VectorXd gaps = values_of(rows);
+    const double worst = gaps.lpNorm<Eigen::Infinity>();
+    if (!(worst < fast * before)) masses.factor(rows, bodies, ranks);
+    before = worst;
+    displace(masses, masses.displacements(-gaps), solids);
     moved = true;
   }
   for (std::size_t j = 0; j < near.size(); ++j) (shown ? state.joints[j].shown_q : state.joints[j].q) = near[j];
@@ -167,7 +177,7 @@ std::string close_joints(const JointSet<Dim>& joints, const Communicator& ranks,
   if (!moved) return {};
   if (shown) set_shown(state.solids, masses.bodies(), solids);
   state.solids = std::move(solids);
-  return open.empty() ? std::string() : joints.names_of(open);
+  return open.empty() ? std::string() : names_of_loops(joints, state.solids, open);
 }
 
 template std::string close_joints<2>(const JointSet<2>&, const Communicator&, double, bool, State<2>&);

@@ -5,6 +5,7 @@
 #include "coupling/solids/coupled_step.h"
 #include "coupling/solids/kind_rigid.h"
 #include "coupling/solids/rigid_coupling.h"
+#include "coupling/state/joint_messages.h"
 
 namespace seiche {
 namespace {
@@ -159,7 +160,7 @@ std::string JointMotion<Dim>::names_of_open(const Eigen::VectorXd& gaps) const {
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (std::abs(gaps[Eigen::Index(i)]) * rows_[i].size > gap_tolerance(joints_.list[std::size_t(rows_[i].joint)]))
       open.push_back(rows_[i].joint);
-  return joints_.names_of(open);
+  return names_of_loops(joints_, state_.solids, open);
 }
 
 template <int Dim>

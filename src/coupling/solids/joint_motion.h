@@ -6,6 +6,7 @@
 
 namespace seiche {
 
+class BodyMatrix;
 template <int Dim>
 class JointBow;
 
@@ -29,6 +30,7 @@ class JointMotion {
   Eigen::VectorXd slack;                            // of C v = rate, below what closes joints: m/s, rad/s
   std::vector<char> wet;                            // of each solid: liquid or gas touches it
   std::shared_ptr<JointBow<Dim>> bow;               // null: none
+  std::shared_ptr<const BodyMatrix> inertia;        // M with C, factored, of rigid solids that are all free; else null
   int turns = 0;  // corrections of `rate` in this solve, after which the solids were solved for again
 
   // Velocities of the unknowns as the state has them: before the solve, then those found.

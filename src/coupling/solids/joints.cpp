@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "coupling/solids/coupled_step.h"
 #include "coupling/solids/joint_bow.h"
+#include "coupling/solids/joint_leaving.h"
 #include "coupling/solids/kind_rigid.h"
 
 namespace seiche {
@@ -65,6 +66,7 @@ class JointInteraction : public Interaction<Dim> {
   }
 
   std::string settle(const Domain<Dim>& domain, State<Dim>& state, double time) const override {
+    refuse_leaving(joints_, domain, state);
     const std::string open = close_joints(joints_, domain.ranks, time, false, state);
     return open.empty() ? open : "joints " + open + " cannot close: what holds or drives their solids contradicts them";
   }

@@ -57,7 +57,8 @@ void RigidParticipant<Dim>::set_target(double dt, int block, SolidCoupling<Dim>&
   Eigen::VectorXd load = c.buoyancy_correction.segment(first, n);
   for (int i = 0; i < n; ++i)
     if (c.is_held(first + i)) load[i] = 0;
-  c.target.segment(first, n) = c.free.segment(first, n) + dt * DenseLdlt(M).solve(load);
+  c.target.segment(first, n) = c.free.segment(first, n);
+  if (!load.isZero(0)) c.target.segment(first, n) += dt * DenseLdlt(M).solve(load);
   c.push.segment(first, n) = M * c.target.segment(first, n);
 }
 

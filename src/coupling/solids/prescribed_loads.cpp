@@ -2,6 +2,7 @@
 
 #include "coupling/geometry/seams.h"
 #include "coupling/solids/surface_load.h"
+#include "coupling/state/dry.h"
 
 namespace seiche {
 namespace {
@@ -288,7 +289,7 @@ std::vector<SolidLoad> loads_beyond_faces(const Setup<Dim>& setup, const StepGeo
   const Solids<Dim>& solids = setup.solids;
   std::vector<SolidLoad> loads(solids.bodies.size());
   const auto counted = [](const Body<Dim>& body) { return is_counted(body); };
-  if (std::none_of(solids.bodies.begin(), solids.bodies.end(), counted)) return loads;
+  if (is_dry(setup) || std::none_of(solids.bodies.begin(), solids.bodies.end(), counted)) return loads;
   PrescribedLoads<Dim> prescribed(setup, geometry, state);
   std::vector<double> beside, sums;
   for (std::size_t k = 0; k < loads.size(); ++k) {

@@ -269,7 +269,7 @@ void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, cons
   Sums<Dim> sums = add_up(s.domain, *step.geometry.shares[std::size_t(c.bodies[std::size_t(block)])], r.center);
   c.J.blocks[std::size_t(block)] = make_block(step, r.center, mask, sums);
   const int k = c.bodies[std::size_t(block)];
-  if (!jointed_neighbours(s.solids, step.geometry.placed, k).empty()) {
+  if (step.rows.global > 0 && !jointed_neighbours(s.solids, step.geometry.placed, k).empty()) {
     if (!parts.open) parts.open = open_cells(s.domain, step.geometry.faces);
     sums.missing = missing_load(step, body, k, r.center, *parts.open);
   }
@@ -287,6 +287,7 @@ void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, const Rig
   const Setup<Dim>& s = step.setup;
   SolidCoupling<Dim>& c = parts.coupling;
   const int k = c.bodies[std::size_t(block)], first = c.first[std::size_t(block)];
+  if (step.rows.global == 0) return;  // no pressure acts
   const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
   if (!lies_within(s.domain.layout.geometry(), placed_points<Dim>(body.contact_surface(), pose))) return;
   const Sums<Dim> all = read_sums<Dim>(sums);

@@ -8,6 +8,7 @@
 #include "coupling/solids/sealed_liquid.h"
 #include "coupling/solve/solve_parts.h"
 #include "coupling/solve/viscous_solve.h"
+#include "coupling/state/dry.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
@@ -47,7 +48,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   if (iterates_on_bodies(s.solids, s.scene->solver, coupling)) problem.solve_together(kkt);
   r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
   refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);
-  set_pressure(input, p, r);
+  if (!is_dry(s)) set_pressure(input, p, r);
 }
 
 // One solve with a given set of cells separated from walls.
@@ -55,10 +56,13 @@ template <int Dim>
 CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   const Setup<Dim>& s = input.setup;
   CoupledSolution<Dim> r;
-  r.rows = number_rows(input.liquid);
-  r.pressure = CellField<Dim>(s.domain.layout);
-  r.u_star = input.u_star;
-  const PressureProblem<Dim> liquid(input.liquid, r.rows);
+  const bool dry = is_dry(s);
+  if (!dry) {
+    r.rows = number_rows(input.liquid);
+    r.pressure = CellField<Dim>(s.domain.layout);
+    r.u_star = input.u_star;
+  }
+  const PressureProblem<Dim> liquid = dry ? PressureProblem<Dim>() : PressureProblem<Dim>(input.liquid, r.rows);
   r.closed_component = liquid.closed.component;
   SolidCoupling<Dim> coupling =
       couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);

@@ -47,9 +47,12 @@ SparseMatrix mass_of_jointed(const SolidCoupling<Dim>& coupling) {
 // Without liquid and elastic solids the masses alone give the solution, but for contact.
 template <int Dim>
 JointTurns<Dim>::JointTurns(const SolidCoupling<Dim>& coupling, const Communicator& ranks, const Eigen::VectorXd& near)
-    : coupling_(coupling), motion_(*coupling.joints), mass_(std::make_unique<BodyMatrix>(ranks)), ranks_(ranks) {
+    : coupling_(coupling), motion_(*coupling.joints), mass_(std::make_shared<BodyMatrix>(ranks)), ranks_(ranks) {
   Eigen::VectorXd push = push_with_bow(coupling);
-  if (!mass_->set(uncouple_held(coupling, mass_of_jointed(coupling), push), coupling.J.constraints)) return;
+  const bool rigid = !coupling.potential || coupling.potential == motion_.potential;
+  const SparseMatrix M = rigid ? coupling.mass : mass_of_jointed(coupling);
+  if (!mass_->set(uncouple_held(coupling, M, push), coupling.J.constraints)) return;
+  if (rigid && !coupling.any_held()) motion_.inertia = mass_;
   Eigen::VectorXd v = motion_.any_wet() || coupling.potential ? near : mass_->solve(push);
   v += mass_->prescribed(motion_.rate - coupling.J.constraints * v);
   close(v);
@@ -60,7 +63,7 @@ template <int Dim>
 void JointTurns<Dim>::stiffen(const SparseMatrix& K) {
   if (K.nonZeros() == 0) return;
   Eigen::VectorXd none = Eigen::VectorXd::Zero(coupling_.size());
-  auto stiff = std::make_unique<BodyMatrix>(ranks_);
+  auto stiff = std::make_shared<BodyMatrix>(ranks_);
   if (!stiff->set(uncouple_held(coupling_, SparseMatrix(coupling_.mass + K), none), coupling_.J.constraints)) return;
   mass_ = std::move(stiff);
   stiffness_ = K;

@@ -31,7 +31,7 @@ class JointTurns {
 
   const SolidCoupling<Dim>& coupling_;
   JointMotion<Dim>& motion_;
-  std::unique_ptr<BodyMatrix> mass_;
+  std::shared_ptr<BodyMatrix> mass_;
   Communicator ranks_;
   SparseMatrix stiffness_;       // of stiffen(); empty: none
   Eigen::VectorXd shift_;        // of v by the last correction that no solve followed

@@ -121,15 +121,18 @@ template <int Dim>
 InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
   Eigen::VectorXd push = push_with_bow(coupling_) + r;
   if (kkt_) return minimise_together(K, push);
-  if (!H_.set(uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push),
+  const bool known = K.nonZeros() == 0 && coupling_.joints && coupling_.joints->inertia;
+  if (!known &&
+      !H_.set(uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push),
               coupling_.J.constraints))
     return indefinite_response();
-  const Eigen::VectorXd dry = H_.solve(push) + this->prescribed_by_joints(H_);
+  const BodyMatrix& H = known ? *coupling_.joints->inertia : H_;
+  const Eigen::VectorXd dry = H.solve(push) + this->prescribed_by_joints(H);
   Vector b = this->with_missing_fluxes(b_, -c1_);
   add_multiplied(coupling_.J, -c1_ * free_part(dry), b);
-  if (std::string failure = solve(H_, b); !failure.empty()) return failed_response(failure);
+  if (std::string failure = solve(H, b); !failure.empty()) return failed_response(failure);
   const Eigen::VectorXd force = impulse_of(pressure_);
-  Eigen::VectorXd v = dry + H_.solve(force);
+  Eigen::VectorXd v = dry + H.solve(force);
   hold(v);
   return respond_with_pressure(v, force);
 }

@@ -12,6 +12,7 @@ struct PressureProblem {
   DistributedMatrix A;
   RowGrid grid;
 
+  PressureProblem() = default;
   PressureProblem(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows)
       : closed(find_closed_components(in, rows)), A(assemble_pressure_matrix(in, rows)), grid(row_grid(in, rows)) {}
 };

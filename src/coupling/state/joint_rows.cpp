@@ -45,7 +45,7 @@ double size_of(const std::vector<Body<Dim>>& bodies, int k) {
 
 template <int Dim>
 PlacedRow placed_row(const Joint& joint, int number, const JointRow& row) {
-  return {number, row.value, 1, false, {{joint.first, row.first}, {joint.second, row.second}}};
+  return {number, row.value, 1, false, RowParts({joint.first, row.first}, {joint.second, row.second})};
 }
 
 // The place of one side of a joint; adds the patch that it holds.
@@ -175,6 +175,7 @@ JointedBodies jointed_bodies(const JointSet<Dim>& joints, const Participants<Dim
     const RigidState* rigid = solids[k].rigid();
     if (!rigid) continue;
     body.about = rigid->center;
+    body.rates.reserve(std::size_t(solids[k].unknowns()));
     for (int i = 0; i < solids[k].unknowns(); ++i)
       body.rates.emplace_back(i, PlacedBody::Rate::Unit(Dim == 2 && i == 2 ? 5 : i));
   }

@@ -66,13 +66,34 @@ JointedBodies jointed_bodies(const JointSet<Dim>& joints, const Participants<Dim
 template <int Dim>
 PlacedBody placed_patch(const HeldPatch<Dim>& held, const Eigen::VectorXd& u);
 
+// The places that a row acts on and its parts there: two, or four of a gear.
+class RowParts {
+ public:
+  using Part = std::pair<int, PlacedBody::Rate>;
+  RowParts() = default;
+  RowParts(const Part& first, const Part& second) : parts_{first, second}, count_(2) {}
+  void emplace_back(int place, const PlacedBody::Rate& rate) { parts_.at(count_++) = {place, rate}; }
+  std::size_t size() const { return count_; }
+  const Part& front() const { return parts_[0]; }
+  Part& operator[](std::size_t n) { return parts_[n]; }
+  const Part& operator[](std::size_t n) const { return parts_[n]; }
+  Part* begin() { return parts_.data(); }
+  Part* end() { return begin() + count_; }
+  const Part* begin() const { return parts_.data(); }
+  const Part* end() const { return begin() + count_; }
+
+ private:
+  std::array<Part, 4> parts_{};
+  std::size_t count_ = 0;
+};
+
 // A row of JointRow over the places of JointedBodies that it acts on.
 struct PlacedRow {
   using Rate = PlacedBody::Rate;
   int joint = 0;
   double value = 0, size = 1;  // m or rad; a gap is |value| * size, m
   bool drives = false;         // true: the coordinate of a drive
-  std::vector<std::pair<int, Rate>> parts;
+  RowParts parts;
   // Rate by the velocities (v, w) of the bodies.
   double rate(const std::vector<Rate>& velocities) const;
 };

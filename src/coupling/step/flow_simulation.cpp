@@ -60,10 +60,10 @@ class FlowSimulation : public Simulation {
   std::vector<JointReport> joints() const override { return report_joints(setup_->solids.joints, state_); }
   double expected_volume() const override { return state_.expected_volume; }
   ProbeSample probe(std::size_t k) const override {
-    return measure_probe(*setup_, state_, geometry_, solids_, setup_->scene->probes.at(k), probe_fields_);
+    return measure_probe(*setup_, state_, geometry_on_grid(), solids_, setup_->scene->probes.at(k), probe_fields_);
   }
   FrameField frame_field(const std::string& name) const override {
-    return make_frame_field(setup_->domain, setup_->fluids, state_, geometry_.psi, name);
+    return make_frame_field(setup_->domain, setup_->fluids, state_, geometry_on_grid().psi, name);
   }
   FieldView view(const std::string& name) override {
     FieldView view = make_field_view(setup_->domain, state_, name);
@@ -230,6 +230,11 @@ class FlowSimulation : public Simulation {
     return setup_->solids.geometry.measure(place_moving_bodies(state_), state_.time);
   }
 
+  // With distances, which steps without fluids leave out.
+  const StepGeometry<Dim>& geometry_on_grid() const {
+    return geometry_.psi.empty() ? geometry_ = measure_geometry() : geometry_;
+  }
+
   // The initial state as if a step of dt had led to it: pressure slope, viscous acceleration and cavities of the trial,
   // u(-dt) = 2 u(0) - u(dt).
   State<Dim> inform(const State<Dim>& trial, double dt) const {
@@ -326,9 +331,7 @@ class FlowSimulation : public Simulation {
   // Volumes, energies, momentum and speed of a state.
   StepStats measure(const State<Dim>& state, const StepGeometry<Dim>& geometry) const {
     StepStats stats;
-    stats.step = state.step;
-    stats.time = state.time;
-    stats.dt = state.dt_now;
+    stats.step = state.step, stats.time = state.time, stats.dt = state.dt_now;
     measure_fluids(setup_->domain, setup_->fluids, state, geometry.psi, stats);
     if (setup_->tracks_volume()) measure_tracked(setup_->domain, setup_->fluids, state, stats);
     stats.liquid_volume -= volume_beyond(setup_->domain, setup_->solids, geometry, state.phi);
@@ -367,7 +370,7 @@ class FlowSimulation : public Simulation {
   std::unique_ptr<const Setup<Dim>> setup_;  // before state_, which refers to it
   State<Dim> state_;
   std::weak_ptr<State<Dim>> kept_;  // takes the state once it is over, while a view shows it
-  StepGeometry<Dim> geometry_;
+  mutable StepGeometry<Dim> geometry_;
   SceneAccount account_;
   Phases phases_;
   std::vector<SurfaceMesh> surfaces_;

@@ -37,13 +37,18 @@ bool can_go_on(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeS
                double dt) {
   // Redistancing covers ceil(cfl) + 1 layers. Before it, this velocity moves the surface over two half steps.
   const double h = domain.layout.h(), most = std::ceil(time.cfl) + 1;
-  if (fastest_component(domain, halfway) * dt > most * h) return false;
+  return fastest_component(domain, halfway) * dt <= most * h && solids_can_go_on(domain, solids, halfway, dt);
+}
+
+template <int Dim>
+bool solids_can_go_on(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& halfway, double dt) {
   if (!solids.has_unknowns()) return true;
   std::vector<Placement> placed = place_bodies(halfway);
   for (std::size_t k = 0; k < placed.size(); ++k) halfway.solids[k].set_velocity(placed[k]);
   // One cell a step, with an allowance for solids that speed up.
   constexpr double speeding = 1.1;
-  return solids.geometry.largest_displacement(placed, dt) <= speeding * h && safe_share(solids, halfway, dt / 2) >= 1;
+  return solids.geometry.largest_displacement(placed, dt) <= speeding * domain.layout.h() &&
+         safe_share(solids, halfway, dt / 2) >= 1;
 }
 
 template <int Dim>
@@ -64,6 +69,7 @@ StepGeometry<Dim> placed_at_end(const Solids<Dim>& solids, const State<Dim>& end
   template bool is_leapfrog_step<D>(const Solids<D>&, const std::vector<Source<D>>&, const Features&, const State<D>&, \
                                     double);                                                                           \
   template bool can_go_on<D>(const Domain<D>&, const Solids<D>&, const TimeSpec&, const State<D>&, double);            \
+  template bool solids_can_go_on<D>(const Domain<D>&, const Solids<D>&, const State<D>&, double);                      \
   template std::vector<Placement> place_halfway<D>(const State<D>&, double);                                           \
   template StepGeometry<D> placed_at_end<D>(const Solids<D>&, const State<D>&, StepGeometry<D>);
 SEICHE_INSTANTIATE(2)

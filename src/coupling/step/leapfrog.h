@@ -34,6 +34,10 @@ template <int Dim>
 bool can_go_on(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time, const State<Dim>& halfway,
                double dt);
 
+// As far as solids are concerned. Collective.
+template <int Dim>
+bool solids_can_go_on(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& halfway, double dt);
+
 // Places of the solids at the middle of the step that ends at state.time. Prescribed ones have the twists of the whole
 // step.
 template <int Dim>

@@ -7,6 +7,7 @@
 #include "base/time_spec.h"
 #include "coupling/solve/coupled_solve.h"
 #include "coupling/solve/rheology_iteration.h"
+#include "coupling/state/dry.h"
 #include "coupling/step/checks.h"
 #include "coupling/step/side_flow.h"
 #include "coupling/step/step_size.h"
@@ -123,8 +124,7 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   const Setup<Dim>& s = task.s;
   const PhaseFault fault = task.phases.enter("solve");
   const auto timed = task.phases.timers.measure("solve");
-  const State<Dim>& before = task.before;
-  const auto flow = before.exterior->joined_level(s.domain, s.fluids, before);
+  const auto flow = task.before.exterior->joined_level(s.domain, s.fluids, task.before);
   const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
   const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
   CoupledSolution<Dim> solution = solve_coupled(
@@ -142,7 +142,7 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   out.separation_error = solution.separation_error;
   out.failure = solution.failure;
   out.state.impacts = solution.impacts;
-  out.state.pressure = solution.pressure;
+  if (!is_dry(s)) out.state.pressure = solution.pressure;
   return solution;
 }
 
@@ -230,7 +230,7 @@ Attempt<Dim> solve_once(const SolveTask<Dim>& task, Moved<Dim> moved, const Visc
   out.geometry = std::move(moved.geometry);
   CoupledSolution<Dim> solution = solve(task, viscosity, solves, moved.end.get(), out);
   if (out.failure.empty()) {
-    restore(task, solution, moved.end.get(), out);
+    if (!is_dry(task.s)) restore(task, solution, moved.end.get(), out);
     solves.solids = std::move(solution.solids);
   }
   return out;
@@ -261,7 +261,7 @@ Attempt<Dim> solve_viscous(const SolveTask<Dim>& task, const Moved<Dim>& moved, 
 
 template <int Dim>
 Attempt<Dim> solve_for_horizon(const SolveTask<Dim>& task, Moved<Dim> moved, Solves<Dim>& solves) {
-  if (task.s.fluids.is_viscous()) return solve_viscous(task, moved, solves);
+  if (task.s.fluids.is_viscous() && !is_dry(task.s)) return solve_viscous(task, moved, solves);
   return solve_once<Dim>(task, std::move(moved), nullptr, solves);
 }
 

@@ -2,6 +2,8 @@
 #include "coupling/step/step.h"
 
 #include "base/scene.h"
+#include "coupling/state/dry.h"
+#include "coupling/step/dry_step.h"
 #include "coupling/step/leapfrog.h"
 #include "coupling/step/solve_phases.h"
 #include "coupling/step/surface_phases.h"
@@ -46,6 +48,7 @@ template <int Dim>
 Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double dt, Phases& phases) {
   if (s.fluids.has_prescribed_flow()) return attempt_prescribed_step(s, before, dt, phases);
   const StepTimes times = times_of_step(s.solids, s.sources, s.features, before, dt);
+  if (is_dry(s)) return attempt_dry_step(s, before, times, phases);
   Moved<Dim> moved = move_surface_and_solids(s, before, times, phases);
   if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure), true);
   Predicted<Dim> predicted = predict_velocity(s, before, moved, times, phases);

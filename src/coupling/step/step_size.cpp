@@ -6,6 +6,7 @@
 #include "base/time_spec.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solids/solid_coupling.h"
+#include "coupling/state/dry.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
 #include "coupling/step/step_size.h"
@@ -26,16 +27,20 @@ namespace {
 // dt <= 1.5, since the leapfrog of surface and velocity is stable below 2. Squares of the rates of gravity and tension
 // add. Fields of forces count as gravity.
 template <int Dim>
-double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Force<Dim>>& forces,
-                             const TimeSpec& time, const State<Dim>& state, double until) {
-  if (fluids.has_prescribed_flow()) return limit_of_prescribed(domain, fluids, time, state, until - state.time);
-  const double v = fastest_component(domain, state), reach = time.cfl * domain.layout.h(),
+double limit_of_present_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
+  const Domain<Dim>& domain = s.domain;
+  const Fluids& fluids = s.fluids;
+  if (fluids.has_prescribed_flow())
+    return limit_of_prescribed(domain, fluids, s.scene->time, state, until - state.time);
+  const bool dry = is_dry(s);
+  const double v = dry ? 0 : fastest_component(domain, state), reach = s.scene->time.cfl * domain.layout.h(),
                g = fluids.gravity.largest(state.time, until) +
-                   largest_field(forces, domain.layout.geometry(), state.time, until);
+                   largest_field(s.forces, domain.layout.geometry(), state.time, until);
   const double capillary = capillary_step(domain, fluids);
   if (g == 0) return std::min(capillary, v > 0 ? reach / v : std::numeric_limits<double>::infinity());
   const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
-  if (!state.exterior->flows() && !has_surface(domain, state.phi)) return std::min(flow, capillary);  // nothing to wave
+  if (!dry && !state.exterior->flows() && !has_surface(domain, state.phi))
+    return std::min(flow, capillary);  // nothing to wave
   const double waves = 1.5 * std::sqrt(domain.layout.h() / (3.14159265358979323846 * g));
   return std::min(flow, waves / std::sqrt(1 + waves * waves / (capillary * capillary)));
 }
@@ -43,7 +48,7 @@ double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, co
 // Velocities that sides and sources give are limited likewise, as the flow takes them on within the step.
 template <int Dim>
 double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
-  const double limit = limit_of_present_flow(s.domain, s.fluids, s.forces, s.scene->time, state, until);
+  const double limit = limit_of_present_flow(s, state, until);
   if (s.fluids.has_prescribed_flow()) return limit;
   const double span = std::min(limit, until - state.time);
   const PlacedSources<Dim> sources(s, state, state.time);
@@ -264,7 +269,7 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (s.solids.leads_ahead() && state.step > 0 && dt >= state.planned * (1 - 1e-9)) dt = state.planned;
   if (dt >= remaining * (1 - 1e-9)) dt = remaining;
   if (spec.fixed_step) {
-    std::string fault = fault_of_pinned_flow(s.domain, s.fluids, s.scene->time, state, dt);
+    std::string fault = is_dry(s) ? "" : fault_of_pinned_flow(s.domain, s.fluids, s.scene->time, state, dt);
     if (fault.empty())
       fault = fault_of_pinned_solids(s.domain, s.solids, s.scene->time, motion_ahead(state, dt), state.time, dt);
     if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);

@@ -3,7 +3,6 @@
 #include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/solids/sealed_liquid.h"
-#include "coupling/solids/solid_coupling.h"
 #include "coupling/step/checks.h"
 #include "coupling/step/leapfrog.h"
 #include "coupling/step/side_flow.h"
@@ -22,43 +21,6 @@
 
 namespace seiche {
 namespace {
-
-// The state at the end of the step as far as it follows from its length alone.
-template <int Dim>
-State<Dim> shifted_levels(const State<Dim>& before, const StepTimes& times) {
-  State<Dim> next = before;
-  next.trial = nullptr;
-  next.looks_ahead = false;
-  next.time = times.looks_ahead() ? before.time : before.time + times.dt;
-  next.step = before.step + 1;
-  age(next);
-  age(next.exterior->flow);
-  next.dt_before = before.dt_now;
-  next.dt_now = times.dt;
-  next.since_solve = times.leapfrog ? times.dt - times.lead : 0;
-  return next;
-}
-
-// After a look ahead all solids move as it found.
-template <int Dim>
-void move_solids(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Participants<Dim>& solids) {
-  const std::vector<Eigen::VectorXd> velocities = each_velocity_over(s.solids, before, times.dt);
-  const bool looked_ahead = before.trial && before.horizon > 0;
-  for (std::size_t k = 0; k < velocities.size(); ++k)
-    solids[k].advance({s, before, times.dt, times.lead, velocities[k],
-                       looked_ahead ? &std::as_const(before.trial->solids)[k] : nullptr});
-}
-
-// Places of the solids at the solve. Prescribed ones have their mean velocity over the step.
-template <int Dim>
-std::vector<Placement> place_at_solve(const State<Dim>& next, const StepTimes& times) {
-  if (times.leapfrog) return place_halfway(next, times.dt);
-  if (!times.looks_ahead()) return place_bodies(next);
-  std::vector<Placement> placed;
-  for (std::size_t k = 0; k < next.solids.size(); ++k)
-    placed.push_back(next.solids[k].place(times.start, times.start + times.dt, times.start));
-  return placed;
-}
 
 // Flags of the deforming bodies that no unknown moves by a tenth of a cell in the step.
 template <int Dim>
@@ -261,9 +223,7 @@ template <int Dim>
 Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
                                    Phases& phases) {
   Moved<Dim> moved{shifted_levels(before, times), {}, {}};
-  if (!times.looks_ahead()) move_solids(s, before, times, moved.state.solids);
-  for (const auto& interaction : s.solids.interactions)
-    if (moved.failure.empty()) moved.failure = interaction->settle(s.domain, moved.state, times.start + times.lead);
+  moved.failure = move_solids(s, before, times, moved.state);
   if (!moved.failure.empty()) return moved;
   moved.geometry = measure_geometry(s.domain, s.solids, s.scene->domain, moved.state, times, phases);
   moved.end = find_end(s.domain, s.fluids, s.solids, before, times, moved, phases);
@@ -289,11 +249,6 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
 }
 
 template <int Dim>
-void show_solids(const Setup<Dim>& s, State<Dim>& state) {
-  for (const auto& interaction : s.solids.interactions) interaction->show(s.domain, state);
-}
-
-template <int Dim>
 void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
                       const CellField<Dim, char>& closed, Phases& phases, Attempt<Dim>& solved) {
   const auto timed = phases.timers.measure("surface");
@@ -306,7 +261,7 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
     book_feeds(s, next, solved.geometry, times.start + times.lead, times.start + times.dt, next);
   }
   (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, closed, next);
-  for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
+  go_on(leading, times, next);
   show_solids(s, next);
   if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));
   if (s.tracks_volume()) return;
@@ -317,7 +272,6 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
 
 #define SEICHE_INSTANTIATE(D)                                                                                      \
   template Moved<D> move_surface_and_solids<D>(const Setup<D>&, const State<D>&, const StepTimes&, Phases&);       \
-  template void show_solids<D>(const Setup<D>&, State<D>&);                                                        \
   template void move_second_half<D>(const Setup<D>&, const State<D>&, const StepTimes&, const CellField<D, char>&, \
                                     Phases&, Attempt<D>&);
 SEICHE_INSTANTIATE(2)

@@ -6,20 +6,11 @@
 #include "coupling/state/attempt.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "coupling/step/solid_phases.h"
 #include "coupling/tension/surface_tension.h"
 #include "fluid/volume/volume_transport.h"
 
 namespace seiche {
-
-// A step from `start` to start + dt. The solve finds surface and solids `lead` after the start: half-way in a leapfrog
-// step (leapfrog.h), else at the end. A look ahead (lead 0) leaves them at the start: its solve finds how solids that
-// plan steps set off.
-struct StepTimes {
-  double start, dt, lead;  // s
-  bool leapfrog;
-
-  bool looks_ahead() const { return lead == 0; }
-};
 
 // Surface and solids where the solve finds them; flow and pressure are still those of the step before.
 template <int Dim>
@@ -39,10 +30,6 @@ struct Moved {
 template <int Dim>
 Moved<Dim> move_surface_and_solids(const Setup<Dim>& setup, const State<Dim>& before, const StepTimes& times,
                                    Phases& phases);
-
-// Shows solids at the end of the step where their interactions hold.
-template <int Dim>
-void show_solids(const Setup<Dim>& s, State<Dim>& state);
 
 // The second half of a leapfrog step, by the velocities at its end; by those at its start where its end is too fast.
 // `closed` as in Moved. Collective.

@@ -1,7 +1,6 @@
 #include "linalg/core/body_matrix.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 #include "linalg/core/dense_factors.h"
@@ -24,33 +23,14 @@ std::vector<std::vector<int>> connected_parts(const SparseMatrix& H) {
       const int a = root_of(parent, k), b = root_of(parent, int(it.row()));
       parent[std::max(a, b)] = std::min(a, b);
     }
-  std::map<int, std::vector<int>> parts;
-  for (int i = 0; i < int(parent.size()); ++i) parts[root_of(parent, i)].push_back(i);
   std::vector<std::vector<int>> list;
-  for (auto& [root, rows] : parts) list.push_back(std::move(rows));
+  std::vector<int> place(parent.size(), -1);  // in the list, of each root: the first row of its part
+  for (int i = 0; i < int(parent.size()); ++i) {
+    int& n = place[std::size_t(root_of(parent, i))];
+    if (n < 0) n = int(list.size()), list.emplace_back();
+    list[std::size_t(n)].push_back(i);
+  }
   return list;
-}
-
-// Unknowns of a block that is solved for by itself: those of a rigid body.
-constexpr std::size_t most_alone = 6;
-
-// Appends the entries of H^-1 C' in the rows of a block that H does not couple with others.
-void append_solved_alone(const SparseMatrix& H, const SparseMatrix& C, const std::vector<int>& block,
-                         std::vector<Eigen::Triplet<double>>& entries) {
-  const auto n = Eigen::Index(block.size());
-  std::map<int, Eigen::VectorXd> columns;
-  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    for (SparseMatrix::InnerIterator it(C, block[std::size_t(k)]); it; ++it)
-      columns.try_emplace(int(it.row()), Eigen::VectorXd::Zero(n)).first->second[k] = it.value();
-    for (Eigen::Index i = 0; i < n; ++i) own(i, k) = H.coeff(block[std::size_t(i)], block[std::size_t(k)]);
-  }
-  if (columns.empty()) return;
-  const DenseLlt factor(own);
-  for (const auto& [column, b] : columns) {
-    const Eigen::VectorXd x = factor.solve(b);
-    for (Eigen::Index i = 0; i < n; ++i) entries.emplace_back(block[std::size_t(i)], column, x[i]);
-  }
 }
 
 Eigen::VectorXd gathered(const Eigen::VectorXd& b, const std::vector<int>& rows) {
@@ -63,7 +43,8 @@ void BodyMatrix::find_parts() {
   std::vector<Part> old = std::move(parts_);
   parts_.clear();
   shared_.clear();
-  for (std::vector<int>& rows : connected_parts(H_)) {
+  blocks_ = connected_parts(H_);
+  for (std::vector<int> rows : blocks_) {
     if (int(rows.size()) <= shared_limit) {
       shared_.insert(shared_.end(), rows.begin(), rows.end());
       continue;
@@ -111,7 +92,11 @@ bool BodyMatrix::set(SparseMatrix H, const SparseMatrix& C) {
   shared_out_ = false;
   find_parts();
   share_out();
-  bool good = factor_shared();
+  std::vector<std::vector<int>> small;
+  for (const std::vector<int>& block : blocks_)
+    if (block.size() <= SmallBlocks::most) small.push_back(block);
+  all_small_ = small.size() == blocks_.size();
+  bool good = small_.factor(H_, small) && (all_small_ || factor_shared());
   for (Part& part : parts_)
     if (good && part.owner == ranks_.rank()) good = part.factor.factor(submatrix(part.rows));
   constraints_ = {};
@@ -125,10 +110,9 @@ SparseMatrix BodyMatrix::solve_rows_freely(const SparseMatrix& C) const {
   std::vector<Eigen::Triplet<double>> entries;
   SparseMatrix rest(C.rows(), C.cols());
   std::vector<Eigen::Triplet<double>> of_rest;
-  for (const std::vector<int>& block : connected_parts(H_))
-    if (block.size() <= most_alone)
-      append_solved_alone(H_, C, block, entries);
-    else
+  small_.append_solved(C, entries);
+  for (const std::vector<int>& block : blocks_)
+    if (block.size() > SmallBlocks::most)
       for (const int k : block)
         for (SparseMatrix::InnerIterator it(C, k); it; ++it) of_rest.emplace_back(int(it.row()), k, it.value());
   SparseMatrix X(C.cols(), C.rows());
@@ -172,6 +156,7 @@ Eigen::MatrixXd BodyMatrix::solve_columns(const Eigen::MatrixXd& B) const {
 }
 
 Eigen::VectorXd BodyMatrix::solve_freely(const Eigen::VectorXd& b) const {
+  if (all_small_) return small_.solve(b);
   if (parts_.empty()) return shared_.empty() ? b : shared_factor_.solve(b);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
   for (const Part& part : parts_)
@@ -185,6 +170,7 @@ Eigen::VectorXd BodyMatrix::solve_freely(const Eigen::VectorXd& b) const {
 }
 
 Eigen::MatrixXd BodyMatrix::solve_columns_freely(const Eigen::MatrixXd& B) const {
+  if (all_small_) return small_.solve_columns(B);
   if (parts_.empty()) return shared_.empty() ? B : shared_factor_.solve_columns(B);
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
   for (const Part& part : parts_)

@@ -7,6 +7,7 @@
 
 #include "base/communicator.h"
 #include "linalg/core/constraint_rows.h"
+#include "linalg/core/small_blocks.h"
 #include "linalg/core/sparse_ldlt.h"
 
 namespace seiche {
@@ -57,7 +58,10 @@ class BodyMatrix {
   Communicator ranks_;
   SparseMatrix H_;
   bool shared_out_ = false;
-  std::vector<int> shared_;  // rows of the small parts
+  std::vector<std::vector<int>> blocks_;  // rows of all connected parts
+  SmallBlocks small_;                     // those of them that are small
+  bool all_small_ = false;                // nothing else is factored
+  std::vector<int> shared_;               // rows of parts up to shared_limit
   SparseLdlt shared_factor_;
   std::vector<Part> parts_;
   ConstraintRows constraints_;

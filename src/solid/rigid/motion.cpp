@@ -41,6 +41,8 @@ struct Splitting {
 
   explicit Splitting(const Vec3& inverse) : middle(inverse[1]), first(inverse[0] - middle), last(inverse[2] - middle) {}
 
+  // All moments are equal up to round-off: the first part is the whole motion.
+  bool is_even() const { return std::max(std::abs(first), std::abs(last)) <= 1e-14 * middle; }
   // Cube root of Strang's local error, dt^3 |[X, [X, Y]]|. Zero if either part vanishes; one step is then exact.
   double angle(double l, double dt) const {
     const double a = std::abs(first) * l * dt, c = std::abs(last) * l * dt;
@@ -90,9 +92,33 @@ Vec3 PrincipalInertia::inverse_moments() const {
   return inverse;
 }
 
-PrincipalInertia principal_inertia(const Eigen::Matrix3d& inertia) {
+namespace {
+
+bool is_diagonal(const Eigen::Matrix3d& m) {
+  return m(0, 1) == 0 && m(0, 2) == 0 && m(1, 2) == 0;
+}
+
+// The axes of space, by ascending moments.
+PrincipalInertia sorted_axes(const Vec3& moments) {
+  std::array<int, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return moments[a] < moments[b]; });
+  PrincipalInertia result;
+  for (int a = 0; a < 3; ++a) {
+    result.axes.col(a) = Vec3::Unit(order[std::size_t(a)]);
+    result.moments[a] = std::max(0.0, moments[order[std::size_t(a)]]);
+  }
+  return result;
+}
+
+PrincipalInertia eigen_axes(const Eigen::Matrix3d& inertia) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
-  PrincipalInertia result{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0)};
+  return {solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0)};
+}
+
+}  // namespace
+
+PrincipalInertia principal_inertia(const Eigen::Matrix3d& inertia) {
+  PrincipalInertia result = is_diagonal(inertia) ? sorted_axes(inertia.diagonal()) : eigen_axes(inertia);
   if (result.axes.determinant() < 0) result.axes.col(0) *= -1;
   return result;
 }
@@ -109,7 +135,7 @@ FreeRotation rotate_freely(const PrincipalInertia& inertia, const Eigen::Matrix3
   const double step = dt / steps;
   const Vec3 first = r * inertia.axes.col(0), last = r * inertia.axes.col(2);
   Turn turn;
-  for (int i = 0; i < int(steps); ++i) {
+  for (int i = 0; i < int(steps) && !split.is_even(); ++i) {
     turn.add_about(first, split.first, l, step / 2);
     turn.add_about(last, split.last, l, step);
     turn.add_about(first, split.first, l, step / 2);

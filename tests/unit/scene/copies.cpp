@@ -52,6 +52,20 @@ TEST_CASE("an array makes copies in the order of the axes, and the scene that is
   CHECK(write_scene(parse(write_scene(scene))) == write_scene(scene));
 }
 
+TEST_CASE("copies in 2D are written as they may be read") {
+  for (const std::string rotate : {"", "rotate = { degrees = 30 }\n", "rotate = { degrees = -30 }\n"}) {
+    const Scene scene = parse(
+        "dimension = 2\n[domain]\nlower = [0, 0]\nupper = [1, 1]\ncell_size = 0.1\n[[solid]]\nname = \"box\"\n"
+        "kind = \"rigid\"\nshape = \"box\"\nlower = [-0.1, -0.1]\nupper = [0.1, 0.1]\ndensity = 500\n"
+        "translate = [0.2, 0.2]\narray = { count = [2, 1], spacing = [0.4, 0] }\n" +
+        rotate + "[time]\nend = 1\n");
+    CHECK(write_scene(parse(write_scene(scene))) == write_scene(scene));
+    const RotationSpec turn = scene.solids[1].shape.transform.rotate;
+    CHECK(turn.axis == Vec3(0, 0, 1));
+    CHECK(turn.degrees == Approx(rotate.empty() ? 0 : rotate.find('-') == std::string::npos ? 30 : -30));
+  }
+}
+
 TEST_CASE("scattered copies keep apart within their box, and the same seed gives the same places") {
   const auto scattered = [](int seed) {
     return parse(
