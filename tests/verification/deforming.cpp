@@ -124,7 +124,7 @@ TEST_CASE("a disc that grows lifts the water by its area", "[deforming]") {
 
 TEST_CASE("a later mesh that is thinner than a cell is refused by its file", "[deforming]") {
   Meshes meshes;
-  SurfaceMesh ball = ball_mesh({0.5, 0.5, 0.5}, 0.2);
+  SurfaceMesh ball = ball_mesh<3>({0.5, 0.5, 0.5}, 0.2);
   meshes.add(ball);
   for (Vec3& p : ball.points) p[1] = 0.5 + 0.1 * (p[1] - 0.5);
   meshes.add(ball);
