@@ -29,6 +29,7 @@ SolidSpec random_solid(Dice& dice, int dim, int number) {
 // Four rigid bodies and two static solids at random positions: across walls, the surface and each other.
 Scene random_scene(int dim, Filling filling, double tolerance, int seed) {
   Scene s = test::box_scene(dim, dim == 2 ? 19 : 11);
+  test::add_liquid(s, "-1");  // Projection has a level set of its own
   Dice dice{std::mt19937(unsigned(seed))};
   s.gravity = dice.vector(dim, -10, 10);
   s.solver.tolerance = tolerance;

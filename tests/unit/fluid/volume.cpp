@@ -230,7 +230,7 @@ void check_coupling() {
 
   TwoBalls<Dim> smaller(0.3 - 0.2 * h, 0.3);
   const double volume = smaller.total();
-  // Chebyshev's steps leave up to a tenth of the shift. It goes on slowly, down to 0.01 cells.
+  // Chebyshev's steps leave up to a tenth of the shift. It goes on slowly: n rounds leave (200 n)^(-1/2) cells.
   for (int n = 0; n < 300; ++n) CHECK(smaller.couple().rebuilt == 0);
   CHECK(smaller.total() == Approx(volume).epsilon(1e-13));
   CHECK(smaller.volume_of_level_set() == Approx(volume).epsilon(2e-3));
