@@ -46,8 +46,10 @@ struct Setup {
   bool tracks_volume() const {
     if (fluids.liquid.volume != VolumeKeeping::automatic) return fluids.liquid.volume == VolumeKeeping::in_cells;
     if (fluids.has_prescribed_flow()) return sources.empty() && drains.empty() && !domain.sides.any_inflow();
+    // Beside prescribed motions volumes lack enough to open pockets of gas (docs/decisions/0061).
+    const auto excludes = [](const Body<Dim>& body) { return body.is_thin() || (body.moves() && !body.is_free()); };
     return fluids.has_gas() && !fluids.has_surface_tension() &&
-           std::none_of(solids.bodies.begin(), solids.bodies.end(), [](const auto& body) { return body.is_thin(); });
+           std::none_of(solids.bodies.begin(), solids.bodies.end(), excludes);
   }
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }
