@@ -18,7 +18,7 @@ class ImpactSearch {
   ImpactSearch(const Setup<Dim>& setup, const State<Dim>& state, const SolidCoupling<Dim>& coupling, double dt,
                double horizon, const ImpactVelocities& v)
       : setup_(setup), state_(state), columns_(state, coupling, horizon), dt_(dt), horizon_(horizon), v_(v) {}
-  // Those under way before the solve, which goes on with the impulses of contact `pairs`.
+  // Continues the impacts that were under way before the solve, with the impulses of contact `pairs`.
   Impacts run(const std::vector<PairImpulse>& pairs) const;
 
  private:

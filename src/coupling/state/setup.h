@@ -46,7 +46,7 @@ struct Setup {
   bool tracks_volume() const {
     if (fluids.liquid.volume != VolumeKeeping::automatic) return fluids.liquid.volume == VolumeKeeping::in_cells;
     if (fluids.has_prescribed_flow()) return sources.empty() && drains.empty() && !domain.sides.any_inflow();
-    // Beside prescribed motions volumes lack enough to open pockets of gas (docs/decisions/0061).
+    // Pockets of gas open beside prescribed motions (docs/decisions/0061-volumes-and-level-set.md).
     const auto excludes = [](const Body<Dim>& body) { return body.is_thin() || (body.moves() && !body.is_free()); };
     return fluids.has_gas() && !fluids.has_surface_tension() &&
            std::none_of(solids.bodies.begin(), solids.bodies.end(), excludes);

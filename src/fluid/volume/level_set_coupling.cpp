@@ -40,7 +40,7 @@ double shift_at(const Layout<Dim>& layout, const Difference<Dim>& d, const CellF
 }
 
 // Share of the shift that the level set takes in a step. Small shifts are noise of both: phi that followed them at once
-// would be rough, and curvature, waves and corners worse. What stays follows slowly, as the third power.
+// would be rough, and curvature, waves and corners worse. The square lets the rest follow slowly.
 double gain_of(double shift) {
   constexpr double small = 0.01, large = 0.1;
   const double size = std::abs(shift);

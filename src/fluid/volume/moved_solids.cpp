@@ -41,8 +41,8 @@ void leave_covered(const Layout<Dim>& layout, const Halo<Dim>& halo, const Ledge
   fill_share_ghosts(layout, halo, share);
 }
 
-// Full cells within two of those whose room changed: deep in the liquid, or full as far as V tells. Of the latter a
-// surface may pass some, which lack liquid rightly: `lack`, (K - V)/K before the step, at least 0.
+// Full cells within two of those whose room changed: deep in the liquid, or full as far as V tells. A surface may pass
+// some of the latter, which lack liquid rightly: `lack`, (K - V)/K before the step, at least 0.
 template <int Dim>
 struct FullCells {
   CellField<Dim, char> full;
