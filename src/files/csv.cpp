@@ -9,11 +9,6 @@
 #include <vector>
 
 namespace seiche {
-namespace {
-
-using Column = TableColumn;
-
-}  // namespace
 
 // One table for both header and rows. The documented format fixes the columns up to wall_seconds and their order.
 std::vector<TableColumn> columns_of(const StepStats& s) {
@@ -70,7 +65,7 @@ std::vector<TableColumn> columns_of(const JointReport& j) {
 
 namespace {
 
-std::vector<Column> columns_of(const SolidState& s) {
+std::vector<TableColumn> columns_of(const SolidState& s) {
   return {{"x", s.position[0]},
           {"y", s.position[1]},
           {"z", s.position[2]},
@@ -111,20 +106,20 @@ std::string quoted(const std::string& name) {
   return result + "\"";
 }
 
-std::string joined_names(const std::vector<Column>& row) {
+std::string joined_names(const std::vector<TableColumn>& row) {
   std::vector<std::string> names;
-  for (const Column& c : row) names.emplace_back(c.name);
+  for (const TableColumn& c : row) names.emplace_back(c.name);
   return fmt::format("{}", fmt::join(names, ","));
 }
 
-std::string joined_values(const std::vector<Column>& row) {
+std::string joined_values(const std::vector<TableColumn>& row) {
   std::vector<std::string> values;
-  for (const Column& c : row) values.push_back(text_of(c.value));
+  for (const TableColumn& c : row) values.push_back(text_of(c.value));
   return fmt::format("{}", fmt::join(values, ","));
 }
 
-std::string first_not_finite(const std::vector<Column>& row) {
-  for (const Column& c : row) {
+std::string first_not_finite(const std::vector<TableColumn>& row) {
+  for (const TableColumn& c : row) {
     const auto* number = std::get_if<double>(&c.value);
     if (number != nullptr && !std::isfinite(*number)) return c.name;
   }

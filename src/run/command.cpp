@@ -60,7 +60,7 @@ void accept_changed_scene(const Scene& scene, const Scene& before, EditPolicy ed
                                                     "or start a new run";
   throw Error(ExitCode::bad_input,
               fmt::format("{}: changed since the run was stopped: {}; {} (only time.end, time.cfl, time.max_step, "
-                          "time.fixed_step, output.checkpoint_every and [solver] may change freely)",
+                          "time.fixed_step, liquid.volume, output.checkpoint_every and [solver] may change freely)",
                           (folder / "scene.toml").string(), fmt::join(keys, ", "), remedy));
 }
 

@@ -21,7 +21,7 @@ std::uint64_t fingerprint(const std::string& text) {
 
 // Keys that only affect how a step is solved. They may differ from step to step.
 bool is_numerical(const std::string& key) {
-  static constexpr std::array<const char*, 3> steps{"time.cfl", "time.max_step", "time.fixed_step"};
+  static constexpr std::array<const char*, 4> steps{"time.cfl", "time.max_step", "time.fixed_step", "liquid.volume"};
   return key.starts_with("solver.") || std::find(steps.begin(), steps.end(), key) != steps.end();
 }
 

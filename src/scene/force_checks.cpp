@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/name_pattern.h"
+#include "base/restitution.h"
 #include "base/scene.h"
 #include "base/suggest.h"
 #include "scene/checks.h"
@@ -66,12 +67,10 @@ void check_force(const EntryChecker& c, const Scene& scene, const ForceSpec& for
                                      solid.name));
 }
 
-// Solids that give back energy by their own motion, or whose points all move as prescribed.
 void check_rebound(const EntryChecker& c, const Scene& scene, const ContactSpec& contact) {
   for (const SolidSpec& solid : scene.solids) {
     const SolidKind& kind = solid.kind;
-    const bool rebounds = !kind.deforms() && (!kind.is_free() || kind.may_turn);
-    if (!rebounds && fits_any(solid.name, contact.between))
+    if (!may_rebound(kind) && fits_any(solid.name, contact.between))
       return c.report("restitution", fmt::format("\"{}\" is {}; restitution is for rigid, kinematic and static solids, "
                                                  "so name these in between",
                                                  solid.name, kind.name));

@@ -72,7 +72,7 @@ Key<LiquidSpec> volume_key() {
            "how liquid is kept. \"cells\": the share of each cell is carried, so that liquid stays where it is, to "
            "rounding; for scenes whose solids are thicker than a cell. \"shift\": one shift of the whole surface keeps "
            "the sum. \"auto\": \"cells\" in prescribed flows without sources and inflow sides, and with gas that "
-           "flows, without surface tension, thin solids and prescribed motions, else \"shift\""},
+           "flows, without surface tension and thin solids, else \"shift\""},
       &LiquidSpec::volume,
       {{"auto", VolumeKeeping::automatic}, {"cells", VolumeKeeping::in_cells}, {"shift", VolumeKeeping::by_shift}});
 }

@@ -173,6 +173,32 @@ std::string fault_of_side(const Scene& scene, const SideWavesSpec& waves, int ax
   return excluded_by_waves(scene);
 }
 
+// Under a closed lid gas must have room to flow back above the crests: two cells. Fault, or "".
+std::string fault_of_lid(const Scene& scene, const SideWavesSpec& waves, const WaveTrain& train) {
+  constexpr double least_cells = 2;
+  const Vec3 up = -Gravity(scene.gravity).at(0);
+  Eigen::Index vertical = 1;
+  up.cwiseAbs().maxCoeff(&vertical);
+  const bool upwards = up[vertical] > 0;
+  const DomainSpec& d = scene.domain;
+  if (!scene.gas.flows() || d.sides[std::size_t(vertical)][upwards ? 1 : 0].type == SideType::outflow) return {};
+  double crest = waves.height;  // of a spectrum: the significant height
+  if (waves.spectrum.empty()) {
+    crest = 0;
+    for (const WaveMode& mode : train.modes) crest += std::abs(mode.elevation);
+  }
+  const double lid = d.upper[vertical] - d.lower[vertical];
+  const double rest = !waves.level ? waves.depth
+                      : upwards    ? *waves.level - d.lower[vertical]
+                                   : d.upper[vertical] - *waves.level;
+  const double left = lid - rest - crest;
+  if (left >= least_cells * d.cell_size) return {};
+  return fmt::format(
+      "crests leave {:.3g} m below the closed lid, less than two cells for [gas] to flow back through; "
+      "raise the lid, or make it \"outflow\"",
+      left);
+}
+
 }  // namespace
 
 double height_over_stroke(const std::string& paddle, double kh) {
@@ -212,8 +238,11 @@ void check_side_waves(SceneContext& context, const TomlNode& root, const Scene& 
       const std::string path = fmt::format("domain.boundary.{}_{}.waves", "xyz"[axis], side == 0 ? "lower" : "upper");
       std::string fault = fault_of_side(scene, spec.waves, axis);
       try {
-        if (fault.empty())
-          fault = fault_of_theory(spec.waves, wave_train(spec.waves, Gravity(scene.gravity).at(0).norm()));
+        if (fault.empty()) {
+          const WaveTrain train = wave_train(spec.waves, Gravity(scene.gravity).at(0).norm());
+          fault = fault_of_theory(spec.waves, train);
+          if (fault.empty()) fault = fault_of_lid(scene, spec.waves, train);
+        }
       } catch (const Error& error) {
         fault = error.what();
       }

@@ -84,24 +84,32 @@ ImpactColumn ImpactColumns<Dim>::column(int first, int second, const std::vector
 }
 
 template <int Dim>
-double ImpactColumns<Dim>::product(const ImpactColumn& a, const ImpactColumn& b) const {
+double ImpactColumns<Dim>::dot(const ImpactColumn& a, const ImpactColumn& b) {
   double sum = 0;
   for (std::size_t s : {0, 1})
-    for (std::size_t r : {0, 1}) {
-      const int first = a.first_unknown[s], n = twist_size<Dim>;
-      if (first < 0 || first != b.first_unknown[r]) continue;
-      const DenseLdlt mass(Eigen::MatrixXd(coupling_.mass.block(first, first, n, n)));
-      sum += a.part[s].dot(mass.solve(b.part[r]));
-    }
+    for (std::size_t r : {0, 1})
+      if (a.first_unknown[s] >= 0 && a.first_unknown[s] == b.first_unknown[r]) sum += a.part[s].dot(b.part[r]);
   return sum;
+}
+
+template <int Dim>
+ImpactColumn ImpactColumns<Dim>::over_mass(ImpactColumn column) const {
+  for (std::size_t s : {0, 1}) {
+    const int first = column.first_unknown[s], n = twist_size<Dim>;
+    if (first < 0) continue;
+    column.part[s] = DenseLdlt(Eigen::MatrixXd(coupling_.mass.block(first, first, n, n))).solve(column.part[s]);
+  }
+  return column;
 }
 
 template <int Dim>
 Eigen::MatrixXd ImpactColumns<Dim>::products(const std::vector<ImpactColumn>& columns) const {
   const auto n = Eigen::Index(columns.size());
   Eigen::MatrixXd A(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) A(i, j) = A(j, i) = product(columns[std::size_t(i)], columns[std::size_t(j)]);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ImpactColumn over = over_mass(columns[std::size_t(i)]);
+    for (Eigen::Index j = 0; j <= i; ++j) A(i, j) = A(j, i) = dot(columns[std::size_t(j)], over);
+  }
   return A;
 }
 

@@ -25,7 +25,7 @@ class ImpactColumns {
       : state_(state), coupling_(coupling), horizon_(horizon) {}
   ImpactColumn column(int first, int second, const std::vector<Impact::Impulse>& impulses) const;
   // W_i'M^-1 W_j without liquid.
-  double product(const ImpactColumn& a, const ImpactColumn& b) const;
+  double product(const ImpactColumn& a, const ImpactColumn& b) const { return dot(a, over_mass(b)); }
   Eigen::MatrixXd products(const std::vector<ImpactColumn>& columns) const;
   // The centre of mass of rigid solid k at the solve, m; nothing for others.
   std::optional<Vec3> center(int k) const;
@@ -35,6 +35,8 @@ class ImpactColumns {
   Vec3 change_at(const ImpactColumn& column, int side, const Eigen::VectorXd& dv) const;
 
  private:
+  static double dot(const ImpactColumn& a, const ImpactColumn& b);
+  ImpactColumn over_mass(ImpactColumn column) const;  // M^-1 W
   std::array<Vec3, 2> arms_at_one_place(int first, int second, const Impact::Impulse& i) const;
   Eigen::VectorXd without_held(int first, Eigen::VectorXd v) const;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/restitution.h"
+#include "base/scene.h"
 #include "coupling/solids/rigid_coupling.h"
 #include "coupling/state/solids.h"
 #include "linalg/core/dense_factors.h"
@@ -24,7 +26,8 @@ bool is_under_way(const Impact& impact) {
   return impact.stage == Impact::Stage::meeting;
 }
 
-// Groups of impacts that share free solids, in the order of their first members.
+}  // namespace
+
 template <int Dim>
 std::vector<Impacts> clusters_of(const Impacts& impacts, const ImpactColumns<Dim>& columns) {
   std::vector<int> group(impacts.size());
@@ -45,8 +48,6 @@ std::vector<Impacts> clusters_of(const Impacts& impacts, const ImpactColumns<Dim
   for (auto& [first, cluster] : all) clusters.push_back(std::move(cluster));
   return clusters;
 }
-
-}  // namespace
 
 template <int Dim>
 Impacts ImpactSearch<Dim>::run(const std::vector<PairImpulse>& pairs) const {
@@ -70,11 +71,14 @@ Impacts ImpactSearch<Dim>::run(const std::vector<PairImpulse>& pairs) const {
   return all;
 }
 
+// 0 without a [[contact]] of the pair. Nothing where one of them cannot rebound.
 template <int Dim>
 std::optional<double> ImpactSearch<Dim>::coefficient(int a, int b) const {
+  for (const int k : {a, b})
+    if (k >= 0 && !may_rebound(setup_.scene->solids[std::size_t(k)].kind)) return {};
   const PairCoefficients& all = setup_.solids.restitutions;
   const auto found = all.find(b < 0 ? SolidPair{a, -1} : SolidPair{std::min(a, b), std::max(a, b)});
-  return found == all.end() ? std::nullopt : std::optional(found->second);
+  return found == all.end() ? 0 : found->second;
 }
 
 // Contact acts where the solids will be at the end of the horizon.
@@ -141,6 +145,7 @@ Impact ImpactSearch<Dim>::begun(const SolidPair& pair, const Push& push) const {
 
 template <int Dim>
 bool ImpactSearch<Dim>::is_fast(const SolidPair& pair, const Push& push) const {
+  if (!(coefficient(pair[0], pair[1]) > 0)) return false;
   const ImpactColumn column = columns_.column(pair[0], pair[1], push);
   return -column.parting(v_.free) - driven(column) > least_approach(column);
 }
@@ -154,7 +159,8 @@ bool ImpactSearch<Dim>::touches(const SolidPair& pair, const Impacts& impacts) c
                      [&](const Impact& i) { return is_shared(pair[0], i) || is_shared(pair[1], i); });
 }
 
-// Pairs that meet fast enough begin. Pairs that rest against their solids join, however slow: they pass impacts on.
+// Pairs that meet fast enough begin, unless they are to stay together. Pairs that touch their solids join, however slow
+// and whatever their coefficient: they pass impacts on.
 template <int Dim>
 void ImpactSearch<Dim>::begin(Pushes pushes, Impacts& impacts) const {
   const auto add_all = [&](const auto& fits) {
@@ -216,7 +222,10 @@ void ImpactSearch<Dim>::set_rebounds(Impacts& cluster) const {
   }
 }
 
-template class ImpactSearch<2>;
-template class ImpactSearch<3>;
+#define SEICHE_INSTANTIATE(D)                                                            \
+  template std::vector<Impacts> clusters_of<D>(const Impacts&, const ImpactColumns<D>&); \
+  template class ImpactSearch<D>;
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
 
 }  // namespace seiche

@@ -12,6 +12,10 @@ struct ImpactVelocities {
   const Eigen::VectorXd &before, &alone, &free, &after;  // the solve; without contact and rebounds; without contact
 };
 
+// Groups of impacts that share free solids, in the order of their first members.
+template <int Dim>
+std::vector<Impacts> clusters_of(const Impacts& impacts, const ImpactColumns<Dim>& columns);
+
 template <int Dim>
 class ImpactSearch {
  public:

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "coupling/solids/impact_search.h"
+#include "coupling/state/dry.h"
 #include "coupling/state/solids.h"
 #include "solid/contact/reflections.h"
 
@@ -20,31 +21,40 @@ class Rebounds : public Interaction<Dim> {
   }
 };
 
-// The rebounds that are due, together: impulses of all unknowns, what they do to the pairs.
+// Rebounds that act together: impulses of all unknowns, what they do to the pairs.
 struct DueRebounds {
   Eigen::VectorXd push;
   double slope = 0;     // their impulses times the mean speeds at which the pairs part without them, J
+  double driven = 0;    // the part of it that is by prescribed motion, J
   double response = 0;  // sum of Impact::response
   double energy = 0;    // that they may give back, J
-  bool any = false;
 };
 
+// `mean`: of the velocities before the solve and without these rebounds after it.
 template <int Dim>
-DueRebounds due_rebounds(const Impacts& impacts, const ImpactColumns<Dim>& columns, const Eigen::VectorXd& before,
-                         const Eigen::VectorXd& alone) {
+DueRebounds due_rebounds(const Impacts& impacts, const ImpactColumns<Dim>& columns, const Eigen::VectorXd& mean) {
   DueRebounds all;
-  all.push.setZero(alone.size());
+  all.push.setZero(mean.size());
   for (const Impact& impact : impacts) {
-    if (impact.stage != Impact::Stage::due) continue;
     const ImpactColumn column = columns.column(impact.first, impact.second, impact.impulses);
     const double impulse = impact.share * column.size;
     column.add_to(all.push, impulse);
-    all.slope += 0.5 * impulse * (column.parting(before) + column.parting(alone));
+    all.slope += impulse * column.parting(mean);
+    all.driven += impulse * column.prescribed;
     all.response += impact.response;
     all.energy += impact.energy;
-    all.any = true;
   }
   return all;
+}
+
+// The rebounds that are due, in groups. Each group has a share of its own where solving for it costs little.
+template <int Dim>
+std::vector<Impacts> groups_of_due(const Setup<Dim>& setup, const Impacts& impacts, const ImpactColumns<Dim>& columns) {
+  Impacts due;
+  for (const Impact& impact : impacts)
+    if (impact.stage == Impact::Stage::due) due.push_back(impact);
+  if (due.empty()) return {};
+  return is_dry(setup) ? clusters_of(due, columns) : std::vector<Impacts>{due};
 }
 
 }  // namespace
@@ -54,8 +64,6 @@ ImpactsOfSolve<Dim>::ImpactsOfSolve(const Setup<Dim>& setup, const State<Dim>& s
                                     const SolidCoupling<Dim>& coupling, double horizon)
     : setup_(setup), state_(state), coupling_(coupling), horizon_(horizon) {}
 
-// In liquid the same change of speed takes more impulse: the first bound makes up for it. The second one is on the
-// energy of liquid and solids.
 template <int Dim>
 std::string ImpactsOfSolve<Dim>::act(InertiaProblem& problem, Eigen::VectorXd& push) {
   if (setup_.solids.restitutions.empty() || push.size() == 0) return {};
@@ -64,17 +72,26 @@ std::string ImpactsOfSolve<Dim>::act(InertiaProblem& problem, Eigen::VectorXd& p
   if (!alone.failure.empty()) return alone.failure;
   before_ = velocities_in(coupling_, state_);
   free_ = alone_ = alone.velocity;
-  const DueRebounds due =
-      due_rebounds(state_.impacts, ImpactColumns<Dim>(state_, coupling_, horizon_), before_, alone_);
-  if (!due.any) return {};
-  const InertiaResponse pushed = problem.minimise(none, due.push);
+  for (const Impacts& group : groups_of_due(setup_, state_.impacts, ImpactColumns<Dim>(state_, coupling_, horizon_)))
+    if (std::string failure = act_together(group, problem, push); !failure.empty()) return failure;
+  return {};
+}
+
+// Beside liquid and joints the same change of speed takes another impulse: the first bound makes up for it. The second
+// one is on the energy of all. Work of groups one after the other: P_k (v_before + v_alone)/2 + sum_{j < k} P_k dv_j.
+template <int Dim>
+std::string ImpactsOfSolve<Dim>::act_together(const Impacts& group, InertiaProblem& problem, Eigen::VectorXd& push) {
+  const Eigen::VectorXd mean = 0.5 * (before_ - alone_) + free_;
+  const DueRebounds due = due_rebounds(group, ImpactColumns<Dim>(state_, coupling_, horizon_), mean);
+  const InertiaResponse pushed = problem.minimise(Eigen::SparseMatrix<double>(push.size(), push.size()), due.push);
   if (!pushed.failure.empty()) return pushed.failure;
-  const double curvature = due.push.dot(pushed.velocity - alone_);
+  const Eigen::VectorXd change = pushed.velocity - alone_;
+  const double curvature = due.push.dot(change);
   if (curvature <= 0) return {};
   const double share = std::min(due.response / curvature, share_within(due.slope, curvature, due.energy));
-  work_ = share * (due.slope + 0.5 * share * curvature);
+  work_ += share * (due.slope - due.driven + 0.5 * share * curvature);
   push += share * due.push;
-  free_ += share * (pushed.velocity - alone_);
+  free_ += share * change;
   return {};
 }
 

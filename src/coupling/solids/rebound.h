@@ -19,6 +19,8 @@ class ImpactsOfSolve {
   Impacts after(const Eigen::VectorXd& v, const std::vector<PairImpulse>& pairs, double dt) const;
 
  private:
+  std::string act_together(const Impacts& group, InertiaProblem& problem, Eigen::VectorXd& push);
+
   const Setup<Dim>& setup_;
   const State<Dim>& state_;
   const SolidCoupling<Dim>& coupling_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <optional>
 
 #include "base/error.h"
 #include "fluid/volume/spill.h"
@@ -86,7 +87,9 @@ class Loader : public FieldVisitor<Dim> {
     const auto found =
         std::find_if(data_.fields.begin(), data_.fields.end(), [&](const auto& r) { return r.name == name; });
     if (found == data_.fields.end() || std::int64_t(found->values.size()) != box.size())
-      throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks the field '" + name + "' of this rank");
+      throw Error(ExitCode::bad_checkpoint,
+                  "the checkpoint lacks the field '" + name + "' of this rank" +
+                      (name == "liquid" ? ": its run kept the volume by a shift; add --set liquid.volume=shift" : ""));
     const std::vector<double> values = found->values.unpack();
     auto next = values.begin();
     for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>&) { set(s, *next++); });
@@ -184,27 +187,35 @@ std::vector<double> packed(const Impacts& impacts) {
   return all;
 }
 
-Impacts unpacked(const std::vector<double>& all) {
+// Empty where the numbers are not those of impacts between `solids` solids.
+std::optional<Impacts> unpacked(const std::vector<double>& all, std::size_t solids) {
   Impacts impacts;
-  for (std::size_t n = 0; n + numbers_of_impact <= all.size();) {
+  std::size_t n = 0;
+  const auto is_solid = [&](double k) { return k >= 0 && k < double(solids); };
+  while (n + numbers_of_impact <= all.size()) {
     const double* v = all.data() + n;
-    impacts.push_back({int(v[0]), int(v[1]), Impact::Stage(int(v[2])), int(v[3]), v[4], v[5], v[6], v[7], v[8], {}});
     n += numbers_of_impact;
-    for (auto left = std::size_t(v[9]); left > 0 && n + numbers_of_impulse <= all.size(); --left) {
+    if (!is_solid(v[0]) || !(v[1] < 0 || is_solid(v[1])) || !(v[2] >= 0 && v[2] <= double(Impact::Stage::acted))) break;
+    impacts.push_back({int(v[0]), int(v[1]), Impact::Stage(int(v[2])), int(v[3]), v[4], v[5], v[6], v[7], v[8], {}});
+    if (!(v[9] >= 0 && v[9] <= double((all.size() - n) / numbers_of_impulse))) return {};
+    for (auto left = std::size_t(v[9]); left > 0; --left, n += numbers_of_impulse) {
       const double* x = all.data() + n;
       impacts.back().impulses.push_back({Vec3(x[0], x[1], x[2]), Vec3(x[3], x[4], x[5]), Vec3(x[6], x[7], x[8])});
-      n += numbers_of_impulse;
     }
   }
-  return impacts;
+  return n == all.size() ? std::optional(std::move(impacts)) : std::nullopt;
 }
 
+// "impacts" of earlier versions held other numbers: impacts under way are over after a step or two, and left out.
 template <int Dim>
 void visit_impacts(const Solids<Dim>& solids, Impacts& impacts, FieldVisitor<Dim>& visitor) {
-  if (solids.restitutions.empty() || !visitor.has("impacts")) return;
+  if (solids.restitutions.empty() || !visitor.has("impacts.under_way")) return;
   std::vector<double> all = packed(impacts);
-  visitor.numbers("impacts", all);
-  if (visitor.loads()) impacts = unpacked(all);
+  visitor.numbers("impacts.under_way", all);
+  if (!visitor.loads()) return;
+  std::optional<Impacts> known = unpacked(all, solids.bodies.size());
+  if (!known) throw Error(ExitCode::bad_checkpoint, "the checkpoint's impacts of solids make no sense");
+  impacts = std::move(*known);
 }
 
 void visit_work(Work& work, StateVisitor& visitor) {

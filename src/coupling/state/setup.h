@@ -46,10 +46,9 @@ struct Setup {
   bool tracks_volume() const {
     if (fluids.liquid.volume != VolumeKeeping::automatic) return fluids.liquid.volume == VolumeKeeping::in_cells;
     if (fluids.has_prescribed_flow()) return sources.empty() && drains.empty() && !domain.sides.any_inflow();
-    // Pockets of gas open beside prescribed motions (docs/decisions/0061-volumes-and-level-set.md).
-    const auto excludes = [](const Body<Dim>& body) { return body.is_thin() || (body.moves() && !body.is_free()); };
+    const auto is_thin = [](const Body<Dim>& body) { return body.is_thin(); };
     return fluids.has_gas() && !fluids.has_surface_tension() &&
-           std::none_of(solids.bodies.begin(), solids.bodies.end(), excludes);
+           std::none_of(solids.bodies.begin(), solids.bodies.end(), is_thin);
   }
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }

@@ -41,49 +41,54 @@ void leave_covered(const Layout<Dim>& layout, const Halo<Dim>& halo, const Ledge
   fill_share_ghosts(layout, halo, share);
 }
 
-// Full cells within two of those whose room changed: deep in the liquid, or full as far as V tells. A surface may pass
-// some of the latter, which lack liquid rightly: `lack`, (K - V)/K before the step, at least 0.
-template <int Dim>
-struct FullCells {
-  CellField<Dim, char> full;
-  CellField<Dim> lack;
+constexpr int pressed_reach = 2;  // cells around those whose room changed
 
-  FullCells(const Layout<Dim>& layout, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
-            const CellField<Dim>& before, const CellField<Dim>& share)
-      : full(layout), lack(layout) {
+// 1 on the cells within `more` of those whose room changed, among the owned ones and `more` beyond.
+template <int Dim>
+CellField<Dim, char> cells_near_changes(const Layout<Dim>& layout, const Ledger<Dim>& ledger, int more) {
+  CellField<Dim, char> near(layout);
+  const Box<Dim> box = cells_around(layout, more + 1);
+  std::vector<Site> sites;
+  const auto look = [&](Site c, double) {
+    if (ledger.room.of(c) != ledger.after.of(c) && box.contains(layout.index(c))) sites.push_back(c);
+  };
+  ledger.room.each_stored(look), ledger.after.each_stored(look);
+  mark_around(layout, sites, more, near);
+  return near;
+}
+
+// Liquid cells near solids that moved, and what they hold where nothing is out of place: K deep in the liquid, where
+// all excess is, else V less the liquid's part of the mismatch m, V m/(K' + m), and no more than K.
+template <int Dim>
+struct PressedCells {
+  CellField<Dim, char> among;
+  CellField<Dim> due;
+
+  PressedCells(const Layout<Dim>& layout, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
+               const CellField<Dim>& mismatch, const CellField<Dim>& share)
+      : among(layout), due(layout) {
     constexpr double depth = 1.2;  // cells, as for is_deep()
-    constexpr double least = 0.9;  // share of the room
-    constexpr int reach = 2;
-    CellField<Dim, char> changed(layout);
-    const Box<Dim> box = cells_around(layout, reach + 1);
-    std::vector<Site> sites;
-    const auto look = [&](Site c, double) {
-      if (ledger.room.of(c) != ledger.after.of(c) && box.contains(layout.index(c))) sites.push_back(c);
-    };
-    ledger.room.each_stored(look), ledger.after.each_stored(look);
-    mark_around(layout, sites, reach, changed);
-    for_each_marked(layout, cells_around(layout, 1), changed.data(), [&](Site c) {
-      const double room = ledger.after.of(c), was = ledger.room.of(c);
-      const bool deep = phi[c] < -depth * layout.h();
-      full[c] = room > 0 && (deep || (phi[c] < 0 && share[c] > least * room));
-      if (full[c] && !deep && was > 0) lack[c] = std::max(0.0, 1 - before[c] / was);
+    const CellField<Dim, char> near = cells_near_changes(layout, ledger, pressed_reach);
+    for_each_marked(layout, cells_around(layout, 1), near.data(), [&](Site c) {
+      const double room = ledger.after.of(c), came = room + mismatch[c];
+      if (!(room > 0) || !(phi[c] < 0)) return;
+      among[c] = 1;
+      const double fullness = came > 0 ? std::clamp(share[c] / came, 0.0, 1.0) : 0;
+      due[c] = phi[c] < -depth * layout.h() ? room : std::min(room, share[c] - fullness * mismatch[c]);
     });
   }
 };
 
-// Jacobi steps of a diffusion: dV_c = sum over open faces of k (e_n - e_c), k = min(K_c, K_n)/(2 Dim). e: the excess
-// (V - K)/K where positive, else what the cell lacks more than before the step.
+// Jacobi steps of a diffusion: dV_c = sum over open faces of k (e_n - e_c), k = min(K_c, K_n)/(2 Dim), with e what a
+// cell has beyond its due, over K.
 template <int Dim>
 void even_out_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Room<Dim>& room,
-                     const FullCells<Dim>& near, CellField<Dim>& share) {
+                     const PressedCells<Dim>& near, CellField<Dim>& share) {
   constexpr int steps = 10;
-  const auto excess = [&](Site c) {
-    const double e = (share[c] - room.of(c)) / room.of(c);
-    return e > 0 ? e : std::min(0.0, e + near.lack[c]);
-  };
+  const auto excess = [&](Site c) { return (share[c] - near.due[c]) / room.of(c); };
   const std::vector<Site> cells = listed_possible(
-      layout, layout.cells(), [&](Site c) { return any_marked(near.full.data() + c); },
-      [&](Site c) { return near.full[c] != 0; });
+      layout, layout.cells(), [&](Site c) { return any_marked(near.among.data() + c); },
+      [&](Site c) { return near.among[c] != 0; });
   std::vector<double> change(cells.size());
   for (int n = 0; n < steps; ++n) {
     for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -91,7 +96,7 @@ void even_out_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Roo
       double sum = 0;
       for (int a = 0; a < Dim; ++a)
         for (const Site m : {c - layout.stride(a), c + layout.stride(a)})
-          if (near.full[m] && room.through(a, std::max(c, m)) > 0)
+          if (near.among[m] && room.through(a, std::max(c, m)) > 0)
             sum += std::min(room.of(c), room.of(m)) / (2 * Dim) * (excess(m) - excess(c));
       change[k] = sum;
     }
@@ -103,16 +108,35 @@ void even_out_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Roo
 }  // namespace
 
 template <int Dim>
+CellField<Dim> mismatch_of_room(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const FaceField<Dim>& u,
+                                double dt) {
+  CellField<Dim> mismatch(layout);
+  const CellField<Dim, char> near = cells_near_changes(layout, ledger, pressed_reach);
+  for_each_marked(layout, cells_around(layout, 1), near.data(), [&](Site c) {
+    double in = 0;
+    for (int a = 0; a < Dim; ++a) {
+      const Site high = c + layout.stride(a);
+      in += ledger.room.through(a, c) * u.at(a, c) - ledger.room.through(a, high) * u.at(a, high);
+    }
+    mismatch[c] = ledger.room.of(c) + dt / layout.h() * in - ledger.after.of(c);
+  });
+  return mismatch;
+}
+
+template <int Dim>
 void follow_moved_solids(const Layout<Dim>& layout, const Halo<Dim>& halo, const CellField<Dim>& phi,
-                         const Ledger<Dim>& ledger, const CellField<Dim>& before, CellField<Dim>& share) {
+                         const Ledger<Dim>& ledger, const CellField<Dim>& mismatch, CellField<Dim>& share) {
+  const PressedCells<Dim> pressed(layout, phi, ledger, mismatch, share);
   leave_covered(layout, halo, ledger, share);
-  even_out_excess(layout, halo, ledger.after, FullCells<Dim>(layout, phi, ledger, before, share), share);
+  even_out_excess(layout, halo, ledger.after, pressed, share);
   fill_share_ghosts(layout, halo, share);
 }
 
-template void follow_moved_solids<2>(const Layout<2>&, const Halo<2>&, const CellField<2>&, const Ledger<2>&,
-                                     const CellField<2>&, CellField<2>&);
-template void follow_moved_solids<3>(const Layout<3>&, const Halo<3>&, const CellField<3>&, const Ledger<3>&,
-                                     const CellField<3>&, CellField<3>&);
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template CellField<D> mismatch_of_room<D>(const Layout<D>&, const Ledger<D>&, const FaceField<D>&, double);   \
+  template void follow_moved_solids<D>(const Layout<D>&, const Halo<D>&, const CellField<D>&, const Ledger<D>&, \
+                                       const CellField<D>&, CellField<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
 
 }  // namespace seiche

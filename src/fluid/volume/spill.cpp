@@ -130,10 +130,10 @@ void fill_share_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellFie
 
 template <int Dim>
 Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, const CellField<Dim>& start,
+                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, const CellField<Dim>& mismatch,
                      CellField<Dim>& share) {
   Spill all;
-  if (ledger.has_moved()) follow_moved_solids(layout, halo, phi, ledger, start, share);
+  if (ledger.has_moved()) follow_moved_solids(layout, halo, phi, ledger, mismatch, share);
   const LedgerRules<Dim> present = ledger.at_end();
   hand_to_hosts(layout, halo, present.room, share);
   for (int round = 0; round < 3; ++round) {

@@ -12,11 +12,11 @@ struct Spill {
 };
 
 // phi (m) tells which cells are deep (ledger.h): they keep their excess. Three rounds, each from the shares before it,
-// so that the result does not depend on the ranks. What finds no room stays. `start`: shares at the start of the step,
-// read where solids have moved. Fills ghosts. Collective.
+// so that the result does not depend on the ranks. What finds no room stays. `mismatch`: that of room where
+// solids have moved (moved_solids.h), else not read. Fills ghosts. Collective.
 template <int Dim>
 Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, const CellField<Dim>& start,
+                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, const CellField<Dim>& mismatch,
                      CellField<Dim>& share);
 
 // Ghosts of shares; beyond sides those of the cells at them. Collective.

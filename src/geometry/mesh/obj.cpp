@@ -16,7 +16,8 @@ constexpr std::array<std::string_view, 12> ignored{"vn", "vt",     "vp",     "g"
 
 struct Reader {
   const Source& source;
-  SurfaceMesh mesh;
+  bool wants_lines;  // else l is passed over
+  SurfaceMesh mesh{};
   std::vector<std::size_t> lines{};          // line of each triangle, for messages about indices out of range
   std::vector<std::size_t> segment_lines{};  // line of each segment, likewise
   std::size_t line = 0;
@@ -80,8 +81,8 @@ void read_line(Reader& reader, std::string_view text) {
   const std::string_view key = words.next();
   if (key == "v") return read_point(reader, words);
   if (key == "f") return read_face(reader, words);
-  if (key == "l") return read_polyline(reader, words);
-  if (key.empty() || std::find(ignored.begin(), ignored.end(), key) != ignored.end()) return;
+  if (key == "l" && reader.wants_lines) return read_polyline(reader, words);
+  if (key.empty() || key == "l" || std::find(ignored.begin(), ignored.end(), key) != ignored.end()) return;
   fail_at_line(reader.source, reader.line,
                fmt::format("'{}' is not a statement of OBJ polygons (v, f, l, vn, vt, g, o, s, usemtl, ...)",
                            key.substr(0, 20)));
@@ -99,8 +100,8 @@ void require_known_points(const Reader& reader, const Facets& facets, const std:
   }
 }
 
-Reader read_obj(const Source& source) {
-  Reader reader{source, {}};
+Reader read_obj(const Source& source, bool wants_lines) {
+  Reader reader{source, wants_lines};
   Tokens text(source.bytes);
   while (!text.at_end()) {
     reader.line = text.line();
@@ -114,13 +115,11 @@ Reader read_obj(const Source& source) {
 }  // namespace
 
 SurfaceMesh parse_obj(const Source& source) {
-  SurfaceMesh mesh = read_obj(source).mesh;
-  mesh.segments.clear();
-  return mesh;
+  return read_obj(source, false).mesh;
 }
 
 SurfaceMesh parse_obj_lines(const Source& source) {
-  SurfaceMesh mesh = read_obj(source).mesh;
+  SurfaceMesh mesh = read_obj(source, true).mesh;
   const auto fail = [&](const std::string& what) {
     throw Error(ExitCode::bad_input, source.file.string() + ": " + what);
   };

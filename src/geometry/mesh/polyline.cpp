@@ -35,7 +35,7 @@ SurfaceMesh parse_polylines(const std::filesystem::path& file) {
   return ending == ".obj" ? parse_obj_lines(source) : parse_rows_of_points(source);
 }
 
-void drop_points(SurfaceMesh& mesh, std::vector<std::string>& notes) {
+void drop_lines_without_length(SurfaceMesh& mesh, std::vector<std::string>& notes) {
   const std::size_t dropped = std::erase_if(mesh.segments, [](const Segment& s) { return s[0] == s[1]; });
   if (dropped > 0) notes.push_back(fmt::format("dropped {} lines without length", dropped));
   if (mesh.segments.size() < 3) refuse_outline("fewer than 3 lines enclose no area");
@@ -215,7 +215,7 @@ SurfaceMesh read_closed_polylines(const std::filesystem::path& file, std::vector
   std::vector<std::string> found;
   try {
     mesh::weld(mesh);
-    mesh::drop_points(mesh, found);
+    mesh::drop_lines_without_length(mesh, found);
     mesh::orient_loops(mesh);
   } catch (const Error& e) {
     throw Error(e.code(), file.string() + ": " + e.what());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "geometry/mesh/formats.h"
@@ -22,13 +23,19 @@ std::vector<std::string_view> parts_of_row(std::string_view row) {
   return parts;
 }
 
+// Tables in UTF-8 may begin with one.
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.substr(text.starts_with(mark) ? mark.size() : 0);
+}
+
 // Reads rows into polylines, each closed by a segment from its last point to its first.
 class PointRows {
  public:
   explicit PointRows(const Source& source) : source_(source) {}
 
   SurfaceMesh read() {
-    Tokens lines(source_.bytes);
+    Tokens lines(without_byte_order_mark(source_.bytes));
     while (!lines.at_end()) {
       line_ = lines.line();
       const std::string_view row = lines.rest_of_line();
@@ -43,9 +50,12 @@ class PointRows {
   }
 
  private:
-  // The first row may name the columns.
-  bool is_header(const std::vector<std::string_view>& parts) const {
-    return mesh_.points.empty() && std::none_of(parts.begin(), parts.end(), [](auto p) { return to_double(p); });
+  // The first row may name the columns: no part of it begins as a number does.
+  bool is_header(const std::vector<std::string_view>& parts) {
+    const bool is_first = std::exchange(at_start_, false);
+    return is_first && std::none_of(parts.begin(), parts.end(), [](std::string_view p) {
+             return std::string_view("0123456789+-.").find(p[0]) != std::string_view::npos || to_double(p);
+           });
   }
 
   void add(const std::vector<std::string_view>& parts) {
@@ -77,6 +87,7 @@ class PointRows {
   const Source& source_;
   SurfaceMesh mesh_;
   std::size_t first_ = 0, line_ = 0;  // first point of the polyline that is read
+  bool at_start_ = true;              // no row so far
 };
 
 }  // namespace

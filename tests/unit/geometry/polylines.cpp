@@ -52,8 +52,10 @@ double exact(const Vec3& x) {
 }  // namespace
 
 TEST_CASE("polylines: rows and lines in any order and direction give the same surface") {
-  for (const std::string& text :
-       {square, std::string("0;0\n0;1\n1;1\n1;0\n0;0\n"), std::string("# a\n0 0\n1 0\n1 1\n0 1")}) {
+  for (const std::string& text : {square, std::string("0;0\n0;1\n1;1\n1;0\n0;0\n"),
+                                  std::string("# a\n0 0\n1 0\n1 1\n0 1"), "\xEF\xBB\xBF" + square,
+                                  std::string("\xEF\xBB\xBF"
+                                              "0,0\n1,0\n1,1\n0,1\n")}) {
     const SurfaceMesh mesh = read("a.csv", text);
     CHECK(mesh.points.size() == 4);
     CHECK(mesh.segments.size() == 4);
@@ -122,6 +124,8 @@ TEST_CASE("polylines: what is no closed outline is refused with its place") {
   CHECK_THAT(fault_of("a.obj", points + "v 0 1 0.5\nl 1 2 3 4 1\n"), Contains("leave the plane z = 0"));
   CHECK_THAT(fault_of("a.obj", points + "l 1 2 3 7\n"), Contains("a.obj:4: the line uses point 7"));
   CHECK_THAT(fault_of("a.obj", points + "l 1\n"), Contains("a.obj:4"));
+  CHECK_THAT(fault_of("a.csv", "x, y\nmm, mm\n0, 0\n"), Contains("a.csv:2: 'mm' is not a number"));
+  CHECK_THAT(fault_of("a.csv", "0.1mm,0.2mm\n0, 0\n"), Contains("a.csv:1: '0.1mm' is not a number"));
 }
 
 TEST_CASE("polylines: crossings of very many lines are found soon") {

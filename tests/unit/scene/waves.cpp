@@ -161,6 +161,9 @@ TEST_CASE("waves at sides are read, and say what does not fit") {
   CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.05") + "[gas]\nbubbles = \"volume_conserving\"\n"),
                     Contains("leave [gas] out"));
   CHECK_NOTHROW(parse(side("x_lower", ", height = 0.05") + "[gas]\ndensity = 1\n"));
+  CHECK_THROWS_WITH(parse(side("x_lower", ", height = 0.1, level = 0.75") + "[gas]\ndensity = 1\n"),
+                    Contains("crests leave 0.2 m below the closed lid"));
+  CHECK_NOTHROW(parse(side("x_lower", ", height = 0.1, level = 0.75")));
 }
 
 }  // namespace waves_tests
