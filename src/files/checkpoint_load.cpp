@@ -138,8 +138,11 @@ CheckpointData load_checkpoint(const FoundCheckpoint& found, const std::vector<F
       for (const FieldRecord& field : file.data.fields) filler.take(field);
     }
     if (!filler.complete()) {
-      throw Error(ExitCode::bad_checkpoint, fmt::format("{} does not hold all of the field {} of this grid",
-                                                        found.folder.string(), filler.first_incomplete()));
+      const std::string field = filler.first_incomplete();
+      const char* remedy =
+          field == "liquid" ? ": its run kept the volume by a shift; add --set liquid.volume=shift" : "";
+      throw Error(ExitCode::bad_checkpoint, fmt::format("{} does not hold all of the field {} of this grid{}",
+                                                        found.folder.string(), field, remedy));
     }
     data.fields = std::move(filler).result();
   });

@@ -87,9 +87,7 @@ class Loader : public FieldVisitor<Dim> {
     const auto found =
         std::find_if(data_.fields.begin(), data_.fields.end(), [&](const auto& r) { return r.name == name; });
     if (found == data_.fields.end() || std::int64_t(found->values.size()) != box.size())
-      throw Error(ExitCode::bad_checkpoint,
-                  "the checkpoint lacks the field '" + name + "' of this rank" +
-                      (name == "liquid" ? ": its run kept the volume by a shift; add --set liquid.volume=shift" : ""));
+      throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks the field '" + name + "' of this rank");
     const std::vector<double> values = found->values.unpack();
     auto next = values.begin();
     for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>&) { set(s, *next++); });
