@@ -107,13 +107,41 @@ std::string day_of(std::chrono::system_clock::time_point time) {
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
 }
 
+// Lines of scenes at the defaults of keys that came after the first records, the newest first.
+constexpr const char* later_lines[] = {"up = \"scene\"", "velocity_name = \"vel\"", "volume = \"auto\"",
+                                       "surface = \"closed\""};
+
+std::string text_of(const Scene& scene) {
+  Scene without_folders = scene;
+  for_each_shape(without_folders, [](ShapeSpec& shape) { shape.file = shape.file.filename(); });
+  return write_scene(without_folders);
+}
+
+std::string rest_of(const Scene& scene, const MeasureSpec& measure) {
+  return checksums_of_files(scene) + text_of(measure);
+}
+
+std::string checksum_of_text(const std::string& text) {
+  return fmt::format("{:08x}", crc32c(text));
+}
+
 }  // namespace
 
 std::string measured_identity(const Scene& scene, const MeasureSpec& measure) {
-  Scene without_folders = scene;
-  for_each_shape(without_folders, [](ShapeSpec& shape) { shape.file = shape.file.filename(); });
-  const std::string text = write_scene(without_folders) + checksums_of_files(scene) + text_of(measure);
-  return fmt::format("{:08x}", crc32c(text));
+  return checksum_of_text(text_of(scene) + rest_of(scene, measure));
+}
+
+std::vector<std::string> older_identities(const Scene& scene, const MeasureSpec& measure) {
+  std::string text = text_of(scene);
+  const std::string rest = rest_of(scene, measure);
+  std::vector<std::string> identities;
+  for (const char* line : later_lines) {
+    const std::size_t at = text.find(fmt::format("\n{}\n", line));
+    if (at == std::string::npos) continue;
+    text.erase(at, std::string(line).size() + 1);
+    identities.push_back(checksum_of_text(text + rest));
+  }
+  return identities;
 }
 
 ValidationRecord::ValidationRecord(const fs::path& file, const std::string& text) {

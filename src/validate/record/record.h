@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "validate/case/case.h"
 #include "validate/measure/measures.h"
@@ -37,6 +38,8 @@ struct RecordedRow {
 // Checksum of scene and measure: the scene, the contents of its files (not their location), the measure and its data.
 // Throws Error(bad_input) if such a file is unreadable.
 std::string measured_identity(const Scene& scene, const MeasureSpec& measure);
+// The same before scenes had some of today's keys, which are at their defaults: rows of then still count.
+std::vector<std::string> older_identities(const Scene& scene, const MeasureSpec& measure);
 
 // CSV with one row a run, by case and resolution, with the identity of the measurement. Also reads older records
 // without threads, machine and failure.

@@ -162,6 +162,16 @@ std::string identity_of(const Planned& run) {
   return measured_identity(*run.scene, measure_of(*run.one, *run.resolution));
 }
 
+std::optional<RecordedRun> recorded_run(const Planned& run, const ValidationRecord& record) {
+  const auto row = [&](const std::string& identity) {
+    return record.find(run.one->name, run.resolution->name, identity);
+  };
+  if (const auto known = row(identity_of(run))) return known;
+  for (const std::string& identity : older_identities(*run.scene, measure_of(*run.one, *run.resolution)))
+    if (const auto known = row(identity)) return known;
+  return std::nullopt;
+}
+
 // Origin of an existing run.
 Origin origin_of(const fs::path& run, const Communicator& ranks) {
   const int threads = int(number_in_summary(run, "threads").value_or(0));
@@ -236,7 +246,7 @@ CaseResult recorded_result(const Planned& run, const std::optional<ValidationRec
   result.cell_size = run.scene->domain.cell_size;
   result.verdict = Verdict::absent;
   if (!record) return result;
-  const auto recorded = record->find(run.one->name, run.resolution->name, identity_of(run));
+  const auto recorded = recorded_run(run, *record);
   if (!recorded) return result;
   const bool failed = !recorded->failure.empty();
   result.verdict = failed ? Verdict::failed : Verdict::missed;  // until it is judged

@@ -81,6 +81,19 @@ TEST_CASE("rows that several validations put on a record at once are all there")
   CHECK(entries(folder.path()) == 1);  // no other files remain
 }
 
+TEST_CASE("a row counts that is older than keys of scenes at their defaults, and no longer where these are set") {
+  Scene scene;
+  const MeasureSpec measure;
+  const auto count = [&] { return older_identities(scene, measure).size(); };
+  const std::string present = measured_identity(scene, measure);
+  const auto older = older_identities(scene, measure);
+  REQUIRE(older.size() == 4);
+  CHECK(older.front() != present);
+  scene.output.velocity_name = "v";
+  CHECK(count() == 3);
+  CHECK(measured_identity(scene, measure) != present);
+}
+
 TEST_CASE("a run that fails replaces the pass on record") {
   const ScratchFolder folder;
   ValidateOptions options;
