@@ -108,8 +108,8 @@ TEST_CASE("a grid that never fits is the scene's fault, one that does not fit no
 }
 
 TEST_CASE("edits of a scene between stop and resume pass or stand in the way as documented") {
-  const std::vector<std::string> numerical{"solver.tolerance", "solver.preconditioner", "solver.viscosity",
-                                           "time.cfl",         "time.max_step",         "time.fixed_step"};
+  const std::vector<std::string> numerical{"solver.tolerance", "solver.preconditioner", "solver.viscosity", "time.cfl",
+                                           "time.max_step",    "time.fixed_step",       "liquid.volume"};
   CHECK(forbidden_changes(numerical, EditPolicy::refuse).empty());
   const std::vector<std::string> keys{"time.end",      "liquid.density",          "output.frames", "time.frame_rate",
                                       "probe.0.every", "output.checkpoint_every", "time.scheme"};
