@@ -227,6 +227,26 @@ void set_signal_or_throw(const std::string& name, double value) {
   if (!set_signal(name, value)) throw py::key_error("there is no signal '" + name + "' in the scene's [signals]");
 }
 
+// Drops of a frame as arrays: places and velocities (n, 3), radii and ids.
+py::dict drops_of(const vdb::Frame& frame) {
+  const auto count = py::ssize_t(frame.points.size());
+  py::array_t<double> places({count, py::ssize_t(3)}), velocities({count, py::ssize_t(3)}), radii(count);
+  py::array_t<std::int64_t> ids(count);
+  for (py::ssize_t n = 0; n < count; ++n) {
+    const vdb::Point& p = frame.points[std::size_t(n)];
+    for (py::ssize_t a = 0; a < 3; ++a)
+      places.mutable_at(n, a) = p.place[a], velocities.mutable_at(n, a) = p.velocity[a];
+    radii.mutable_at(n) = p.radius;
+    ids.mutable_at(n) = p.id;
+  }
+  py::dict drops;
+  drops["place"] = places;
+  drops["velocity"] = velocities;
+  drops["radius"] = radii;
+  drops["id"] = ids;
+  return drops;
+}
+
 // Grids of a frame as arrays: level sets and scalars (nx, ny, nz), velocity (nx, ny, nz, 3).
 py::dict read_frame(const Path& file) {
   const vdb::Frame frame = vdb::decode(file);
@@ -248,6 +268,7 @@ py::dict read_frame(const Path& file) {
   all["lower"] = vector_of(frame.lower);
   all["cell_size"] = frame.cell_size;
   all["grids"] = grids;
+  all["drops"] = drops_of(frame);
   return all;
 }
 
@@ -336,8 +357,10 @@ PYBIND11_MODULE(seiche, m) {
   py::register_exception<Error>(m, "Error", PyExc_RuntimeError);
   add_scene(m);
   add_simulation(m);
-  m.def("read_frame", &read_frame, py::arg("file"),
-        "Contents of a frame (.vdb): time, frame, lower, cell_size, and grids as arrays indexed by x, y, z.");
+  m.def(
+      "read_frame", &read_frame, py::arg("file"),
+      "Contents of a frame (.vdb): time, frame, lower, cell_size, grids as arrays indexed by x, y, z, and drops: their "
+      "place, velocity, radius and id.");
   m.def("liquid_mesh", &liquid_mesh_of, py::arg("file"),
         "The liquid's closed surface in a frame of a 3D run: points (m), triangles, velocities at the points (m/s).");
   m.def("materials", &materials, "The table of named materials.");

@@ -65,6 +65,7 @@ struct LiquidSpec {
   RheologySpec rheology;
   bool separates = false;  // separating walls: the pressure at walls and solids is at least 0
   VolumeKeeping volume = VolumeKeeping::automatic;
+  bool spray = true;  // with volumes in cells: liquid too little for the grid flies on as drops; false: it is left out
   VectorFormula velocity{"0", "0", "0"};
   std::optional<VectorFormula> prescribed_velocity;  // at all times; no solve, only the surface moves
   std::vector<LiquidRegionSpec> regions;

@@ -12,7 +12,9 @@ struct UnitRow {
 
 constexpr UnitRow unit_rows[] = {
     {"stats", " time dt wall_seconds ", "s"},
-    {"stats", " liquid_volume volume_corrected gas_volume air_lost volume_spilled volume_drifting ", "m³"},
+    {"stats",
+     " liquid_volume volume_corrected gas_volume air_lost volume_spilled volume_drifting volume_drops volume_left_out ",
+     "m³"},
     {"stats",
      " kinetic_energy potential_energy elastic_energy work_gravity work_tension work_sides work_solids lost_viscous "
      "lost_numerical ",

@@ -46,7 +46,10 @@ std::vector<TableColumn> columns_of(const StepStats& s) {
           {"volume_spilled", s.volume_spilled},
           {"volume_drifting", s.volume_drifting},
           {"joint_gap", s.joint_gap},
-          {"joint_turns", std::int64_t(s.joint_turns)}};
+          {"joint_turns", std::int64_t(s.joint_turns)},
+          {"drops", s.drops},
+          {"volume_drops", s.volume_drops},
+          {"volume_left_out", s.volume_left_out}};
 }
 
 std::vector<TableColumn> columns_of(const JointReport& j) {

@@ -52,6 +52,28 @@ std::vector<std::string> gather_large(const std::string& bytes, const Communicat
   return all;
 }
 
+// Drops of all ranks, on rank 0, by id. 2D frames have them in the middle of their layer.
+std::vector<vdb::Point> gather_drops(const std::vector<DropPoint>& own, const Scene& scene, const Communicator& ranks) {
+  constexpr std::size_t numbers = 8;
+  std::vector<double> values;
+  for (const DropPoint& d : own) {
+    values.insert(values.end(), d.place.begin(), d.place.end());
+    values.insert(values.end(), d.velocity.begin(), d.velocity.end());
+    values.insert(values.end(), {d.radius, double(d.id)});
+  }
+  const double middle = scene.dimension == 2 ? scene.domain.lower[2] + scene.domain.cell_size / 2 : 0;
+  std::vector<vdb::Point> points;
+  const std::string bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+  for (const std::string& part : gather_large(bytes, ranks)) {
+    std::vector<double> v(part.size() / sizeof(double));
+    if (!v.empty()) std::memcpy(v.data(), part.data(), part.size());
+    for (auto at = v.begin(); at != v.end(); at += numbers)
+      points.push_back({{at[0], at[1], at[2] + middle}, {at[3], at[4], at[5]}, at[6], std::int64_t(at[7])});
+  }
+  std::sort(points.begin(), points.end(), [](const vdb::Point& a, const vdb::Point& b) { return a.id < b.id; });
+  return points;
+}
+
 vdb::GridKind grid_kind(FrameField::Kind kind) {
   switch (kind) {
     case FrameField::Kind::level_set:
@@ -141,6 +163,7 @@ vdb::Frame FrameWriter::gather(const FrameLabel& label, const Simulation& simula
     closed.closed = true;
     open.name = "free_surface";
   }
+  frame.points = gather_drops(simulation.drops(), scene_, ranks_);
   return frame;
 }
 
@@ -176,6 +199,9 @@ void FrameWriter::write_joints(const FrameLabel& label, const Simulation& simula
 void FrameWriter::write_fluid(const vdb::Frame& frame) const {
   write_file(paths_.frames() / frame_file("fluid", frame.number, "vti"), vtk::image(frame, scene_.domain.cells));
   write_file(paths_.frames() / "fluid.pvd", vtk::series("fluid", "vti", frame.number, scene_.time.frame_rate));
+  if (scene_.liquid.volume != VolumeKeeping::in_cells || scene_.gas.flows()) return;
+  write_file(paths_.frames() / frame_file("drops", frame.number, "vtu"), vtk::drops(frame.points, frame.time));
+  write_file(paths_.frames() / "drops.pvd", vtk::series("drops", "vtu", frame.number, scene_.time.frame_rate));
 }
 
 void FrameWriter::write_solids(const FrameLabel& label, const Simulation& simulation) {

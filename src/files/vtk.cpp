@@ -238,6 +238,22 @@ std::string joints(const std::vector<JointReport>& joints, double time) {
   return grid(all, fields, "joint", names, time);
 }
 
+std::string drops(const std::vector<vdb::Point>& drops, double time) {
+  Elements all;
+  std::vector<double> radius, velocity;
+  std::vector<std::int64_t> id;
+  for (std::size_t n = 0; n < drops.size(); ++n) {
+    add_vectors({drops[n].place}, all.points);
+    add(all, std::vector<std::array<int, 1>>{{0}}, std::int64_t(n), vtk_vertex, 0);
+    add_vectors({drops[n].velocity}, velocity);
+    radius.push_back(drops[n].radius);
+    id.push_back(drops[n].id);
+  }
+  const std::string fields =
+      "<PointData>\n" + array("radius", radius) + array("velocity", velocity, 3) + array("id", id) + "</PointData>\n";
+  return grid(all, fields, "drop", {"drops"}, time);
+}
+
 std::string series(const std::string& stem, const std::string& extension, int last, double frame_rate) {
   std::string body = "<Collection>\n";
   for (int n = 0; n <= last; ++n) {

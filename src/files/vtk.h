@@ -32,6 +32,9 @@ std::string volumes(const std::vector<VolumeFrame>& solids, const std::vector<st
 // has their names in that order.
 std::string joints(const std::vector<JointReport>& joints, double time);
 
+// A .vtu with a vertex at each drop. Point arrays: `radius` (m), `velocity` (m/s), `id`. The cell array `drop` is 0.
+std::string drops(const std::vector<vdb::Point>& drops, double time);
+
 // A .pvd that lists <stem>.0000.<extension> to <stem>.<last>.<extension> with their times.
 std::string series(const std::string& stem, const std::string& extension, int last, double frame_rate);
 

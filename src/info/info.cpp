@@ -89,6 +89,18 @@ std::string describe_values(const fs::path& file, const vdb::Grid& grid, const v
   return fmt::format("{} {:.6g} to {:.6g}", vectors ? "length at cell centres" : "values", *low, *high);
 }
 
+std::string describe_drops(const vdb::Frame& frame) {
+  double volume = 0, fastest = 0, largest = 0;
+  for (const vdb::Point& p : frame.points) {
+    volume += frame.dimension == 3 ? 4 * M_PI / 3 * std::pow(p.radius, 3) : M_PI * p.radius * p.radius;
+    fastest = std::max(fastest, p.velocity.norm());
+    largest = std::max(largest, p.radius);
+  }
+  return fmt::format("  {} (points): {}, {:.6g} {} in them; radius at most {:.4g} m, speed at most {:.4g} m/s",
+                     vdb::point_grid_name, frame.points.size(), volume,
+                     frame.dimension == 3 ? "m^3" : "m^3 per metre of depth", largest, fastest);
+}
+
 // A committed checkpoint and its verified contents.
 struct Verified {
   Commit commit;
@@ -232,6 +244,7 @@ Lines describe_frame(const fs::path& file) {
                                 kind_name(grid.kind), upper[0], upper[1], upper[2], frame.cell_size, frame.lower[0],
                                 frame.lower[1], frame.lower[2], describe_values(file, grid, frame)));
   }
+  if (!frame.points.empty()) lines.push_back(describe_drops(frame));
   return lines;
 }
 

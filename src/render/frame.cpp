@@ -17,7 +17,7 @@ LoadedFrame load_frame(const std::filesystem::path& frames, int number, const Fr
   if (decoded.grids.empty()) {
     throw Error(ExitCode::bad_input, fmt::format("{}: holds no grid", frame_file("frame", number, "vdb")));
   }
-  LoadedFrame frame{decoded.dimension, number, decoded.time, {}, level_set_of(decoded), {}, {}, {}};
+  LoadedFrame frame{decoded.dimension, number, decoded.time, {}, level_set_of(decoded), {}, {}, {}, decoded.points};
   const vdb::Block& block = decoded.grids[0].blocks.at(0);
   frame.domain.lower = decoded.lower.cast<float>();
   for (int a = 0; a < 3; ++a)

@@ -22,6 +22,7 @@ struct LoadedFrame {
   std::optional<ScalarVolume> quantity;  // shown in false colours
   std::optional<FaceVelocity> velocity;
   SolidMesh solids;
+  std::vector<vdb::Point> drops;
 };
 
 // Parts that not every picture needs.

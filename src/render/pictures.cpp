@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/gravity.h"
 #include "files/checked_file.h"
+#include "render/drops.h"
 #include "render/exr_writer.h"
 #include "render/foam.h"
 #include "render/font.h"
@@ -114,6 +115,7 @@ Plot Studio::plot_of_frame() {
   plot.colors = solid_colors(job_.scene.solids);
   if (frame.velocity) plot.streamlines = streamlines_of(job_, frame);
   plot.liquid = look_of(job_).flat;
+  plot.drops = discs_of(frame.drops, plot.quantity ? job_.wants.quantity : "none", plot.scale, plot.liquid);
   plot.plain = job_.options.plain;
   return plot;
 }
@@ -144,9 +146,14 @@ void Studio::set_stage() {
     stage_.foam = foam_of(*frame.phi, *frame.velocity, fast_speed(job_, stage_), *job_.options.foam);
   if (frame.phi) stage_.liquid = std::make_unique<LiquidSurface>(std::move(*frame.phi));
   stage_.quantity = std::move(frame.quantity);
-  stage_.solids = Bvh(smooth_triangles(frame.solids));
   stage_.colors = solid_colors(job_.scene.solids);
   for (const SolidSpec& solid : job_.scene.solids) stage_.containers.push_back(solid.shape.invert);
+  if (!frame.drops.empty()) {
+    add_spheres(frame.drops, int(stage_.colors.size()), frame.solids);
+    stage_.colors.push_back(drop_color(stage_.look));
+    stage_.containers.push_back(false);
+  }
+  stage_.solids = Bvh(smooth_triangles(frame.solids));
   if (!toward_eye_) toward_eye_ = -camera_of({frame.number, 0}).forward;
   light_stage(stage_, *toward_eye_);
 }

@@ -120,6 +120,7 @@ void draw_plot(Painter& painter, const Plot& plot) {
   painter.rectangle(x0, y0, x1, y1, Vec3f::Ones());
   painter.within(map.border(), [&] {
     draw_liquid(painter, plot, map);
+    for (const Disc& drop : plot.drops) painter.fill(map.picture({drop.outline}), drop.color);
     draw_streamlines(painter, plot, map, style);
     draw_solids(painter, plot, map);
   });

@@ -7,6 +7,12 @@
 
 namespace seiche::render {
 
+// A drop: its outline (m) and colour.
+struct Disc {
+  Polygon outline;
+  Vec3f color;
+};
+
 struct Plot {
   Box domain;                            // z is unused
   ScalarVolume phi;                      // level set, one cell thick
@@ -15,6 +21,7 @@ struct Plot {
   SolidMesh solids;                  // segments
   std::vector<Vec3f> colors;         // of the solids
   std::vector<Polygon> streamlines;  // m
+  std::vector<Disc> drops;
   Vec3f liquid = from_srgb(0.20f, 0.47f, 0.74f);
   bool plain = false;  // nothing beside the picture: no axes, no colour bar
 };

@@ -188,6 +188,16 @@ void check_gas(const Checker& c, const Scene& scene) {
                                "would flow into the gap where liquid separates from a solid; remove separates");
 }
 
+// Drops are made in vacuum, of volumes in cells.
+void check_spray(const Checker& c, const Scene& scene) {
+  const LiquidSpec& liquid = scene.liquid;
+  if (liquid.spray || (liquid.volume == VolumeKeeping::in_cells && !scene.gas.flows() && !liquid.prescribed_velocity))
+    return;
+  c.report("liquid.spray",
+           "liquid.spray = false needs liquid.volume = \"cells\", no gas that flows and no "
+           "liquid.prescribed_velocity: liquid flies as drops only there; remove spray");
+}
+
 // Height maps without an axis of their own rise against gravity, to the axis nearest to that.
 void set_axes_of_height_maps(Scene& scene) {
   Eigen::Index axis = 1;
@@ -232,7 +242,7 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("solid") && context.clean("liquid")) check_attached(context, root, scene);
   if (context.clean("time")) check_motions(context, root, scene);
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
-  if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene);
+  if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene), check_spray(c, scene);
   if (context.clean("gas") && context.clean("liquid") && context.clean("solid")) {
     check_prescribed_flow(context, root, scene);
     if (context.clean("time")) check_rates(context, root, scene);

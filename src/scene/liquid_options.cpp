@@ -154,6 +154,11 @@ Section<LiquidSpec> liquid_section() {
                            "false: they exert suction"},
                    &S::separates),
       volume_key(),
+      value_key<S>({.key = "spray",
+                    .type = T::boolean,
+                    .doc = "with volume = \"cells\" and no gas that flows: liquid too little for the grid flies on as "
+                           "drops; false: it is left out, and stats.csv counts it"},
+                   &S::spray),
       viscosity_key(),
       surface_tension_key(),
       tension_scheme_key(),

@@ -14,7 +14,7 @@ import time
 import numpy
 import pyopenvdb
 
-from read_frames import frame_faults
+from read_frames import frame_faults, read_all
 
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
@@ -174,7 +174,7 @@ def frame_files(folder):
 
 def frame_voxels(path):
     """Every grid of a frame by name, as a dense array over the domain."""
-    grids, metadata = pyopenvdb.readAll(str(path))
+    grids, metadata = read_all(str(path))
     cells = [int(n) for n in metadata["cells"]]
     arrays = {}
     for grid in grids:

@@ -14,6 +14,25 @@ FILE_METADATA = {"time": float, "frame": int, "dt": float, "dimension": int, "ce
 STATISTICS = ["file_bbox_min", "file_bbox_max", "file_voxel_count", "file_mem_bytes"]
 
 
+FIELDS = ("surface", "free_surface", "vel", "velocity", "pressure", "vorticity", "viscosity")
+
+
+def read_all(path):
+    """Grids and metadata of a file. readAll() of Debian's module refuses files with points, as drops are."""
+    try:
+        return vdb.readAll(path)
+    except TypeError as error:
+        if "ptdataidx" not in str(error):
+            raise
+    grids = []
+    for name in FIELDS:
+        try:
+            grids.append(vdb.read(path, name))
+        except KeyError:
+            continue
+    return grids, vdb.readMetadata(path)
+
+
 def metadata_faults(owner, metadata):
     for key, kind in FILE_METADATA.items():
         if key not in metadata:
@@ -81,7 +100,7 @@ def grid_faults(grid, metadata):
 
 
 def frame_faults(path):
-    grids, metadata = vdb.readAll(path)
+    grids, metadata = read_all(path)
     faults = list(metadata_faults("file", metadata))
     if faults:
         return faults

@@ -233,6 +233,33 @@ DAM_IN_CELLS_3D = (DAM_IN_CELLS.replace("dimension = 2", "dimension = 3").replac
                    .replace("[1.0, 0.8]", "[1.0, 0.8, 0.65]").replace("[0.38, 0.5]", "[0.38, 0.5, 0.42]")
                    .replace("cell_size = 0.04", "cell_size = 0.05"))
 
+# Balls of little more than a cell, thrown into each other, a pool, a post and out of an open side: they fly as drops.
+def spray(dimension):
+    x = "sqrt((x-{})^2+(y-{})^2{})-0.03"
+    at = [(0.1 + 0.16 * n, 0.42 + 0.08 * (n % 4)) for n in range(6)]
+    balls = [x.format(f"{a:.2f}", f"{b:.2f}", "" if dimension == 2 else f"+(z-{0.1 + 0.12 * (n % 4):.2f})^2")
+             for n, (a, b) in enumerate(at)]
+    phi = "y-0.17"
+    for ball in balls:
+        phi = f"min({phi}, {ball})"
+    text = DAM_IN_CELLS if dimension == 2 else DAM_IN_CELLS_3D
+    start, end = text.index("[[liquid.region]]"), text.index("[output]")
+    text = text[:start] + f"""\
+velocity = ["y > 0.25 ? 2*sin(9*x) : 0", "y > 0.25 ? -1.5 : 0"{', "y > 0.25 ? 0.5 : 0"' if dimension == 3 else ''}]
+[[liquid.region]]
+shape = "expression"
+phi = "{phi}"
+[[solid]]
+name = "post"
+kind = "static"
+shape = "sphere"
+center = [0.5, 0.25{', 0.3' if dimension == 3 else ''}]
+radius = 0.12
+""" + text[end:]
+    return text.replace("[time]", '[domain.boundary]\nx_upper = "outflow"\n[time]').replace("cell_size = 0.05", "cell_size = 0.04").replace(
+        "0.65]", "0.64]")
+
+
 GAS_IN_CELLS = DAM_IN_CELLS + "[gas]\ndensity = 1.2\n"
 BUBBLE_IN_CELLS = DAM_IN_CELLS.replace(
     'shape = "box"\nlower = [0.0, 0.0]\nupper = [0.38, 0.5]',
@@ -636,6 +663,26 @@ def poured_volumes_agree(bench):
     ranks_agree(bench, POURED_IN_CELLS, (2, 3))
 
 
+def drops_agree(bench, dimension):
+    text = spray(dimension)
+    ranks_agree(bench, text, (2, 3))
+    expect(largest(stats(bench.path("one")), "drops") >= 5, "there are few drops")
+    rows, others = stats(bench.path("one")), stats(bench.path("ranks3"))
+    expect([row["drops"] for row in rows] == [row["drops"] for row in others], "the ranks have other drops")
+    text = text.replace("frame_rate = 5.0", "frame_rate = 10.0").replace("[output]", "[output]\ncheckpoint_every = 1")
+    resumed_ranks_agree(bench, text)
+
+
+def drops_agree_2d(bench):
+    """Drops on 1, 2 and 3 ranks, and resumed on three half-way with the same bits."""
+    drops_agree(bench, 2)
+
+
+def drops_agree_3d(bench):
+    """The same in 3D."""
+    drops_agree(bench, 3)
+
+
 def integral_of_rates(t, scale):
     """Volume that FED's spring brings and its pump takes until t."""
     return scale * 0.3 * (t + 2.5 * t * t) - 0.1 * max(0.0, t - 0.0275)
@@ -800,7 +847,8 @@ TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid
                        mud_ranks_agree_2d, gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d,
                        viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d,
                        volumes_beside_post_agree, volumes_ranks_agree_3d, volumes_under_gas_agree,
-                       volumes_round_bubble_agree, volumes_that_part_agree, poured_volumes_agree, jet_ranks_agree,
+                       volumes_round_bubble_agree, volumes_that_part_agree, poured_volumes_agree, drops_agree_2d,
+                       drops_agree_3d, jet_ranks_agree,
                        fed_ranks_agree_2d, fed_ranks_agree_3d, waves_ranks_agree_2d, waves_under_gas_agree,
                        waves_ranks_agree_3d,
                        same_ranks_same_bits, elastic_same_ranks_same_bits],

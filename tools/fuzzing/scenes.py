@@ -12,7 +12,7 @@ from fuzzing.values import VALUES, table_of
 # Keys that the plan of a scene sets: dimension, grid and duration.
 PLANNED = {("", "dimension"), ("", "include"), ("", "parameters"), ("", "signals"), ("", "curves"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"),
            ("", "joint"), ("", "robot"), ("", "force"), ("", "contact"), ("", "probe"), ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
-           ("domain", "cell_size"), ("liquid", "volume"), ("time", "end"), ("time", "frame_rate"),
+           ("domain", "cell_size"), ("liquid", "volume"), ("liquid", "spray"), ("time", "end"), ("time", "frame_rate"),
            *(("domain.boundary", f"{a}_{end}") for a in AXES for end in ("lower", "upper"))}
 SHAPES = ("liquid.region[]", "liquid.source[]", "liquid.drain[]", "solid[]", "solid[].pinned", "solid[].traction")
 MAKEABLE = {*shapes.GEOMETRY}
@@ -271,3 +271,7 @@ def choose_volume(c, scene):
         return
     liquid["volume"] = c.rng.choice(words if against else [*words, "cells", "cells"])
     c.use("liquid", "volume", liquid["volume"])
+    flows = c.has_gas and scene["gas"].get("bubbles", "resolved") == "resolved"
+    if liquid["volume"] == "cells" and not flows and not c.prescribes and c.rng.random() < 0.4:
+        liquid["spray"] = c.rng.random() < 0.3
+        c.use("liquid", "spray")

@@ -123,7 +123,8 @@ EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const 
                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt) {
   const double t = before.time, dt = attempt.state.dt_now, span = dt + attempt.state.horizon;
   EnergyBudget b;
-  b.kinetic = std::max(start.kinetic_energy, kinetic_energy_of_fluids_before(s.domain, s.fluids, before, psi));
+  b.kinetic = std::max(start.kinetic_energy, kinetic_energy_of_fluids_before(s.domain, s.fluids, before, psi)) +
+              s.fluids.density() * attempt.state.drops.made;
   b.elastic = start.elastic_energy;
   b.surface =
       std::max(surface_energy(s.domain, s.fluids, before.phi), surface_energy(s.domain, s.fluids, attempt.state.phi));
@@ -169,7 +170,8 @@ std::string fault_of_works(const Domain<Dim>& domain, const Fluids& fluids, cons
                mass = std::max(total_mass(fluids, solids, start), total_mass(fluids, solids, attempt.stats)),
                lift = mass * h * fluids.gravity.of_step(before.time + dt, dt).norm(),
                jitter = 0.5 * mass * std::pow(jitter_speed(domain, before, dt), 2),
-               known = there + works + lift + jitter + surface_energy(domain, fluids, attempt.state.phi);
+               made = fluids.density() * attempt.state.drops.made,
+               known = there + works + lift + jitter + made + surface_energy(domain, fluids, attempt.state.phi);
   if (created <= known) return {};
   return fmt::format("{:.4g} {} of kinetic energy come from nowhere; there were {:.4g}, work included", created,
                      Dim == 2 ? "J/m" : "J", there + works);

@@ -18,7 +18,7 @@ namespace seiche {
 namespace {
 
 // Contact forces act below this distance, in cells: far less than the grid resolves, far more than round-off.
-constexpr double reach = 0.05;
+constexpr double reach_of_contact = 0.05;
 // Smallest gap at the start, as a share of the reach. Gaps that narrow are still open on the grid, which closes those
 // below 1e-3 cells.
 constexpr double clearance = 0.05;
@@ -75,7 +75,7 @@ ContactOptions contact_options(const Domain<Dim>& domain, const DomainSpec& exte
   const double h = domain.layout.h(), weight = gravity.largest(0, time.end),
                g = weight > 0 ? weight : length * rate * rate;
   ContactOptions o;
-  o.reach = reach * h;
+  o.reach = reach_of_contact * h;
   o.acceleration = perturbation.contact * g;
   o.usual_speed = std::sqrt(g * h);
   o.creep_speed = 1e-4 * o.usual_speed;
@@ -169,7 +169,7 @@ std::string nearest_solids(const Domain<Dim>& domain, const Solids<Dim>& solids,
   std::string names = solids_at_periodic_sides(domain, solids, state);
   if (!solids.contact) return names;
   const auto motions = contact_motions(state, 0);
-  for (const Overlap& o : find_initial_overlaps(*solids.contact, motions, 0.1 * reach * domain.layout.h()))
+  for (const Overlap& o : find_initial_overlaps(*solids.contact, motions, 0.1 * reach_of_contact * domain.layout.h()))
     names += fmt::format("{}'{}' and {}", names.empty() ? "" : ", ", solids.bodies[o.body].spec().name,
                          other_name(solids, extent, o));
   return names;
@@ -239,7 +239,7 @@ void refuse_overlaps(const Domain<Dim>& domain, const Solids<Dim>& solids, const
                      const State<Dim>& state) {
   if (!solids.contact) return;
   std::vector<std::string> lines = faults_at_periodic_sides(domain, solids, state);
-  const double least = clearance * reach * domain.layout.h();
+  const double least = clearance * reach_of_contact * domain.layout.h();
   for (const Overlap& o : find_initial_overlaps(*solids.contact, contact_motions(state, 0), least)) {
     const Body<Dim>& body = solids.bodies[o.body];
     const std::string misplaced = o.with == Overlap::With::wall ? misplacement(extent, body) : "";

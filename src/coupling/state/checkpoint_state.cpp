@@ -216,6 +216,33 @@ void visit_impacts(const Solids<Dim>& solids, Impacts& impacts, FieldVisitor<Dim
   impacts = std::move(*known);
 }
 
+// The drops of all ranks, by id; each rank takes those in its cells. Checkpoints of earlier versions have none.
+// Collective.
+template <int Dim>
+void visit_drops(const Domain<Dim>& domain, Drops<Dim>& drops, FieldVisitor<Dim>& visitor) {
+  if (!visitor.has("drops")) return;
+  visitor.number("left_out_volume", drops.left_out);
+  std::vector<double> all;
+  if (!visitor.loads()) {
+    std::vector<Drop<Dim>> gathered;
+    const std::vector<double> own = pack_drops(drops.list);
+    for (const std::string& bytes : domain.ranks.all_gather(bytes_of(own.data(), own.size()))) {
+      std::vector<double> numbers(bytes.size() / sizeof(double));
+      if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+      const std::vector<Drop<Dim>> of_rank = unpack_drops<Dim>(numbers);
+      gathered.insert(gathered.end(), of_rank.begin(), of_rank.end());
+    }
+    sort_drops(gathered);
+    all = pack_drops(gathered);
+  }
+  visitor.numbers("drops", all);
+  if (!visitor.loads()) return;
+  drops.list = unpack_drops<Dim>(all);
+  std::erase_if(drops.list, [&](const Drop<Dim>& d) {
+    return !domain.layout.cells().contains(cell_around(domain.layout.geometry(), d.place));
+  });
+}
+
 void visit_work(Work& work, StateVisitor& visitor) {
   visitor.number("work.gravity", work.gravity);
   visitor.number("work.tension", work.tension);
@@ -293,6 +320,7 @@ void visit_state(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   visitor.number("levels", levels);
   visit_numbers(s.fluids, s.solids.bodies.size(), state, visitor);
   visit_impacts(s.solids, state.impacts, visitor);
+  if (s.volume_meets_void()) visit_drops(s.domain, state.drops, visitor);
   for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].visit(visitor);
   for (std::size_t k = 0; k < state.joints.size(); ++k) visit_joint(k, state.joints[k], visitor);
   visit_cells(s, state, visitor);

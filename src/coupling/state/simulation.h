@@ -44,7 +44,10 @@ struct StepStats {
   double gas_volume = 0;           // of flowing gas, or of enclosed air, m^3
   double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
   double volume_spilled = 0;       // handed to neighbouring cells since the start, m^3
-  double volume_drifting = 0;      // of drops too small for a pressure of their own, m^3
+  double volume_drifting = 0;      // in cells away from the level set's liquid, m^3
+  std::int64_t drops = 0;          // that fly as points
+  double volume_drops = 0;         // in them, m^3
+  double volume_left_out = 0;      // of drops that were not kept (liquid.spray), since the start, m^3
   int rejected = 0;                // attempts at this step that were rejected
   double viscous_dissipation = 0;  // what viscous stress takes from the flow in this step, over dt, W
   std::int64_t bubbles = 0;        // enclosed air regions that keep their volume
@@ -97,6 +100,13 @@ struct FrameField {
   std::vector<float> values;
 };
 
+// Liquid too little for the grid, as a point. radius: of the ball, in 2D the disc, of its volume.
+struct DropPoint {
+  Vec3 place{0, 0, 0}, velocity{0, 0, 0};  // m, m/s
+  double radius = 0;                       // m
+  std::int64_t id = 0;                     // its own for as long as it flies
+};
+
 // Values where the simulation holds them: entry (i, j, k) of this rank's block is first[i s_0 + j s_1 + k s_2].
 struct FieldView {
   std::string name;
@@ -145,6 +155,7 @@ class Simulation {
   // Owned cells of a field: surface (continued into solids), closed_surface (without what lies in them), vel, pressure,
   // viscosity, vorticity.
   virtual FrameField frame_field(const std::string& name) const = 0;
+  virtual std::vector<DropPoint> drops() const { return {}; }  // of this rank, by id
   // The values of a field without copying them: surface (m), pressure (Pa) at cells; velocity_x, velocity_y, velocity_z
   // (m/s) at low faces, with the high face of the last cell along their axis. They stay as they are when steps go on.
   virtual FieldView view(const std::string& name) = 0;

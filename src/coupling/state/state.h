@@ -1,5 +1,6 @@
 #pragma once
 // Flow, surface and solids at one time. Each accepted step replaces it.
+#include "coupling/state/drops.h"
 #include "coupling/state/exterior.h"
 #include "coupling/state/flow.h"
 #include "coupling/state/fluids.h"
@@ -40,6 +41,7 @@ struct State : Flow<Dim> {
   double expected_volume = 0;   // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;  // restored by the volume control so far, m^Dim
   double spilled_volume = 0;    // of `liquid`, handed to neighbouring cells so far, m^Dim
+  Drops<Dim> drops;             // at `time`; only if Setup::volume_meets_void()
   Participants<Dim> solids;
   std::vector<JointState> joints;
   Impacts impacts;         // of solids with restitution, under way

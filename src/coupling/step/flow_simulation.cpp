@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/scene.h"
 #include "base/time_spec.h"
+#include "coupling/report/drop_measures.h"
 #include "coupling/report/energy_account.h"
 #include "coupling/report/energy_budget.h"
 #include "coupling/report/measures.h"
@@ -16,7 +17,6 @@
 #include "coupling/state/features.h"
 #include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
-#include "coupling/state/state.h"
 #include "coupling/step/balance.h"
 #include "coupling/step/initial_state.h"
 #include "coupling/step/look_ahead.h"
@@ -27,7 +27,6 @@
 #include "coupling/transport/dry_sources.h"
 #include "coupling/transport/tracked_volume.h"
 #include "coupling/transport/viscous_transport.h"
-#include "fluid/boundary/domain.h"
 
 namespace seiche {
 namespace {
@@ -65,6 +64,7 @@ class FlowSimulation : public Simulation {
   FrameField frame_field(const std::string& name) const override {
     return make_frame_field(setup_->domain, setup_->fluids, state_, geometry_on_grid().psi, name);
   }
+  std::vector<DropPoint> drops() const override { return points_of(state_.drops); }
   FieldView view(const std::string& name) override {
     FieldView view = make_field_view(setup_->domain, state_, name);
     if (view.owner) return view;
@@ -334,6 +334,7 @@ class FlowSimulation : public Simulation {
     stats.step = state.step, stats.time = state.time, stats.dt = state.dt_now;
     measure_fluids(setup_->domain, setup_->fluids, state, geometry.psi, stats);
     if (setup_->tracks_volume()) measure_tracked(setup_->domain, setup_->fluids, state, stats);
+    if (setup_->volume_meets_void()) measure_drops(setup_->domain, setup_->fluids, state, stats);
     stats.liquid_volume -= volume_beyond(setup_->domain, setup_->solids, geometry, state.phi);
     stats.kinetic_energy += kinetic_energy_beside(setup_->domain, setup_->fluids, setup_->solids, geometry, state);
     measure_bodies(setup_->fluids, setup_->scene->time, state, stats);

@@ -5,6 +5,7 @@
 
 #include "base/scene.h"
 #include "base/time_spec.h"
+#include "coupling/drops/deposit.h"
 #include "coupling/solve/coupled_solve.h"
 #include "coupling/solve/rheology_iteration.h"
 #include "coupling/state/dry.h"
@@ -12,7 +13,6 @@
 #include "coupling/step/side_flow.h"
 #include "coupling/step/step_size.h"
 #include "coupling/thin/gap_flow.h"
-#include "coupling/transport/drifting.h"
 #include "coupling/transport/feeds.h"
 #include "coupling/transport/forces.h"
 #include "coupling/transport/level_in_solids.h"
@@ -203,13 +203,7 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
   out.state.exterior->take(s.domain, s.fluids, s.solids, out.geometry, phi, *level);
   out.state.gap_flow = measure_gap_flow(s.domain, out.geometry.faces, level->u);
   if (end) place_at(end->geometry, out.geometry);
-  FaceField<Dim, char> near = faces_near_liquid(s.domain, phi);
-  if (s.volume_meets_void()) {
-    const std::vector<Site> drifting = drifting_cells(s.domain, phi, out.state.liquid);
-    take_drifting(s.domain, out.geometry.faces, drifting, task.predicted.u_star, *level);
-    mark_faces(s.domain.layout, drifting, near);
-  }
-  continue_level(s.domain, s.fluids, s.solids, out.geometry, near, *level);
+  continue_level(s.domain, s.fluids, s.solids, out.geometry, faces_near_liquid(s.domain, phi), *level);
   if (s.fluids.liquid.separates) {
     advance_gaps(liquid, solution.rows, out.state.pressure, solution.u_star, out.state.separation);
     open_gaps(s.domain, out.state);
@@ -308,9 +302,7 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   if (moved.closed)
     keep_inertia_near_closed(s.domain, moved.geometry.faces, *moved.closed, before, phi, gravity, times.dt, p.u_star);
   if (s.volume_meets_void())
-    let_drift(s.domain, moved.geometry.faces, moved.state.liquid, drifting_cells(s.domain, phi, moved.state.liquid),
-              before.now->u, s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt,
-              p.u_star);
+    give_momentum(s.domain, moved.geometry.faces, phi, moved.state.liquid, moved.landed, p.u_star);
   if (s.domain.sides.any_passes()) brake_entering(s.domain, moved.geometry.faces, times.dt, p.u_star);
   if (s.domain.sides.any_passes() || !s.solids.bodies.empty())  // else as transported, ghosts filled
     fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);
@@ -357,8 +349,8 @@ Attempt<Dim> solve_within_room(const Setup<Dim>& s, const State<Dim>& before, Mo
                                Predicted<Dim> predicted, const StepTimes& times, Phases& phases) {
   constexpr int most_solves = 3;  // the fold that closes goes on by a cell a solve; what is left is little
   const Vec3 gravity = s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt);
-  const FillingStep<Dim> step{moved.state.liquid, before.now->u,      gravity,
-                              times.dt,           moved.state.room(), &*moved.state.exterior};
+  const CellField<Dim> share = share_with_drops(s.domain.layout, s.domain.halo, moved.state.drops, moved.state.liquid);
+  const FillingStep<Dim> step{share, before.now->u, gravity, times.dt, moved.state.room(), &*moved.state.exterior};
   for (int solves = 1, iterations = 0;; ++solves) {
     Attempt<Dim> out = solve_and_plan(s, before, moved, predicted, times, phases);
     out.solve.iterations += iterations;

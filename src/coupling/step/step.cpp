@@ -3,6 +3,7 @@
 
 #include "base/scene.h"
 #include "coupling/state/dry.h"
+#include "coupling/step/drop_phases.h"
 #include "coupling/step/dry_step.h"
 #include "coupling/step/leapfrog.h"
 #include "coupling/step/solve_phases.h"
@@ -60,6 +61,7 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double 
   if (s.volume_lags()) solved.state.liquid_phi = solved.state.phi;
   if (times.leapfrog && solved.failure.empty()) move_second_half(s, before, times, *closed, phases, solved);
   if (solved.failure.empty() && !times.leapfrog) show_solids(s, solved.state);
+  if (solved.failure.empty()) solved.failure = fly_after_solve(s, times, solved);
   if (s.tracks_volume() && solved.failure.empty()) solved.failure = fault_of_volume(s.domain, before, solved.state);
   return solved;
 }

@@ -23,6 +23,15 @@ namespace seiche {
 
 namespace {
 
+// Largest component of the drops' velocities, m/s. Drops need no short steps themselves, but the liquid that they come
+// from does: without this a box in a dam break spilled 2.1 % for 1.1 %. Collective.
+template <int Dim>
+double fastest_drop(const Domain<Dim>& domain, const Drops<Dim>& drops) {
+  double fastest = 0;
+  for (const Drop<Dim>& d : drops.list) fastest = std::max(fastest, d.velocity.template lpNorm<Eigen::Infinity>());
+  return domain.ranks.global_max(fastest);
+}
+
 // The flow crosses at most cfl cells: (v + g dt) dt = cfl h. The shortest gravity waves, omega^2 = pi g/h, have omega
 // dt <= 1.5, since the leapfrog of surface and velocity is stable below 2. Squares of the rates of gravity and tension
 // add. Fields of forces count as gravity.
@@ -33,7 +42,8 @@ double limit_of_present_flow(const Setup<Dim>& s, const State<Dim>& state, doubl
   if (fluids.has_prescribed_flow())
     return limit_of_prescribed(domain, fluids, s.scene->time, state, until - state.time);
   const bool dry = is_dry(s);
-  const double v = dry ? 0 : fastest_component(domain, state), reach = s.scene->time.cfl * domain.layout.h(),
+  const double v = dry ? 0 : std::max(fastest_component(domain, state), fastest_drop(domain, state.drops)),
+               reach = s.scene->time.cfl * domain.layout.h(),
                g = fluids.gravity.largest(state.time, until) +
                    largest_field(s.forces, domain.layout.geometry(), state.time, until);
   const double capillary = capillary_step(domain, fluids);

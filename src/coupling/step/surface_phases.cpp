@@ -4,6 +4,7 @@
 #include "base/time_spec.h"
 #include "coupling/solids/sealed_liquid.h"
 #include "coupling/step/checks.h"
+#include "coupling/step/drop_phases.h"
 #include "coupling/step/leapfrog.h"
 #include "coupling/step/side_flow.h"
 #include "coupling/step/wave_absorption.h"
@@ -229,7 +230,9 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
   moved.end = find_end(s.domain, s.fluids, s.solids, before, times, moved, phases);
   if (s.room_changes()) moved.state.open = room_at_solve(s.domain, moved);
   if (!times.looks_ahead()) carry_surface(s, before, times, phases, moved);
+  if (moved.failure.empty()) moved.failure = land_before_solve(s, times, moved);
   keep_volumes(s, before, times, phases, moved);
+  make_before_solve(s, before, times, moved);
   if (!s.feeds.empty())
     moved.fed = set_flux_of_feeds(s.domain, PlacedSources<Dim>(s, moved.state, times.start + times.lead).feeds(),
                                   FedLiquid<Dim>(s.domain.layout, moved.state, moved.geometry.psi),

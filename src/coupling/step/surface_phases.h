@@ -2,6 +2,7 @@
 // Phases of a step around its solve that move surface and solids.
 #include <optional>
 
+#include "coupling/drops/landing.h"
 #include "coupling/solids/end_of_step.h"
 #include "coupling/state/attempt.h"
 #include "coupling/state/setup.h"
@@ -22,6 +23,7 @@ struct Moved {
   CellValues fed{};                                     // what feeds bring into cells at the solve, m^Dim/s
   std::shared_ptr<const EndOfStep<Dim>> end = nullptr;  // of a leapfrog step in which solids move freely; else null
   std::optional<CellField<Dim, char>> closed{};         // closed_cells(); none in a look ahead
+  std::vector<LandedDrop<Dim>> landed{};                // on this rank
   std::string failure{};                                // empty, or why the step cannot be taken
 };
 

@@ -101,7 +101,9 @@ template <int Dim>
 double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state) {
   const double cells =
       local_sum(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return state.liquid[c]; });
-  return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
+  double local = cells * domain.layout.geometry().cell_volume();
+  for (const Drop<Dim>& d : state.drops.list) local += d.volume;
+  return domain.ranks.global_sum(local);
 }
 
 template <int Dim>

@@ -31,7 +31,7 @@ void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, const L
 template <int Dim>
 std::string fault_of_volume(const Domain<Dim>& domain, const State<Dim>& before, const State<Dim>& next);
 
-// Volume of State::liquid, m^Dim. Collective.
+// Volume of State::liquid and of drops, m^Dim. Collective.
 template <int Dim>
 double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state);
 // Sets the columns of volume from State::liquid; `stats` has those of the level set. Collective.

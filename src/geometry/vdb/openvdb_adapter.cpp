@@ -1,4 +1,4 @@
-// The only file that includes OpenVDB.
+// With openvdb_points.cpp the only file that includes OpenVDB.
 #include "geometry/vdb/openvdb_adapter.h"
 
 #include <fmt/format.h>
@@ -19,6 +19,7 @@
 #include "geometry/vdb/closing.h"
 #include "geometry/vdb/frame_checks.h"
 #include "geometry/vdb/frame_header.h"
+#include "geometry/vdb/openvdb_points.h"
 #include "geometry/vdb/sampled_distance.h"
 #include "grid/serial.h"
 
@@ -353,6 +354,12 @@ std::string encode(const Frame& frame, const std::string& velocity) {
     result->addStatsMetadata();
     grids.push_back(result);
   }
+  if (!frame.points.empty()) {
+    const openvdb::GridBase::Ptr points = point_grid(frame, scale_and_translation());
+    points->insertMeta(meta);
+    points->addStatsMetadata();
+    grids.push_back(points);
+  }
   // Voxel (i, j, k) lies at lower + (i + 1/2) h.
   const Vec3 first = frame.lower + Vec3::Constant(frame.cell_size / 2);
   return with_checksum(with_transforms(StringArchive().bytes(grids, meta), first, frame.cell_size));
@@ -362,6 +369,11 @@ Frame decode(const std::filesystem::path& file) {
   const OpenFrame open = open_frame(file);
   Frame frame = open.frame;
   for (const auto& source : *open.grids) {
+    if (holds_points(*source)) {
+      require_within(file, open, *source);
+      frame.points = read_points(file, frame, *source);
+      continue;
+    }
     if (!source->isType<FloatGrid>() && !source->isType<Vec3SGrid>()) {
       refuse(file,
              "grid '" + source->getName() + "' has the type " + source->type() + "; Seiche does not write such grids");

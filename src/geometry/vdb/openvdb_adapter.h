@@ -1,6 +1,7 @@
 #pragma once
 // The only interface to OpenVDB: contouring, writing and reading of frames.
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -38,6 +39,14 @@ struct Grid {
   bool closed = false;        // level sets: encode() closes them at the sides of the domain
 };
 
+// A drop of liquid.
+struct Point {
+  Vec3 place{0, 0, 0}, velocity{0, 0, 0};  // m, m/s; in 2D in the middle of the layer
+  double radius = 0;                       // m; in 2D that of a disc
+  std::int64_t id = 0;
+};
+inline const std::string point_grid_name = "drops";
+
 struct Frame {
   int dimension = 3;    // 2D frames are one voxel thick at k = 0
   Vec3 lower{0, 0, 0};  // low corner of voxel (0,0,0), m
@@ -46,6 +55,7 @@ struct Frame {
   int number = 0;
   std::string creator;
   std::vector<Grid> grids;
+  std::vector<Point> points;  // by id; a grid of points in the file if there are any
 };
 
 inline const std::string velocity_grid = "vel";  // in frames; in files also "velocity"
@@ -55,7 +65,7 @@ std::string level_set_name(const Frame& frame);
 
 // Serialises a frame to the bytes of a .vdb file (Blosc, active mask, statistics metadata, cell-centre transform).
 // The domain is the box from voxel 0 to the highest upper of all blocks. Throws Error(cannot_continue) naming grid and
-// voxel on a value that is not finite.
+// voxel on a value that is not finite. Points have the attributes P, pscale (radius, m), v (m/s) and id.
 // `velocity`: name in the file of the grid velocity_grid.
 std::string encode(const Frame& frame, const std::string& velocity = velocity_grid);
 // Reads a frame written by encode(), each grid as one dense block over the frame's domain. The velocity is named

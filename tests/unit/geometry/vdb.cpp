@@ -147,6 +147,27 @@ vdb::Frame tank_frame() {
 
 }  // namespace
 
+TEST_CASE("a frame read back has the same drops, by id") {
+  const TemporaryFolder folder;
+  const int dimension = GENERATE(2, 3);
+  vdb::Frame frame = ball_frame(dimension);
+  const double h = frame.cell_size, z = frame.lower[2] + (dimension == 2 ? 0.5 : 1.3) * h;
+  for (int n = 0; n < 5; ++n)
+    frame.points.push_back({{frame.lower[0] + (0.01 + 1.7 * n) * h, frame.lower[1] + 2.99 * h, z},
+                            {1.0 * n, -2, 0.5},
+                            0.1 * h * (1 + n),
+                            std::int64_t(1) << (40 + n)});
+  const vdb::Frame read = vdb::decode(write(folder, "frame.0008.vdb", vdb::encode(frame)));
+  CHECK(read.grids.size() == 3);
+  REQUIRE(read.points.size() == 5);
+  for (std::size_t n = 0; n < 5; ++n) {
+    CHECK((read.points[n].place - frame.points[n].place).norm() < 1e-6 * h);
+    CHECK(read.points[n].velocity == frame.points[n].velocity);
+    CHECK(read.points[n].radius == Approx(frame.points[n].radius));
+    CHECK(read.points[n].id == frame.points[n].id);
+  }
+}
+
 TEST_CASE("a frame read back has the same voxels and metadata") {
   const TemporaryFolder folder;
   const int dimension = GENERATE(2, 3);

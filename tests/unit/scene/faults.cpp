@@ -235,6 +235,13 @@ TEST_CASE("volumes are carried in cells beside whatever a scene has") {
   check_all({{small_scene + "[liquid]\nvolume = \"cell\"\n", "did you mean \"cells\""}});
   CHECK(parse(cells).liquid.volume == VolumeKeeping::in_cells);
   CHECK_NOTHROW(parse(cells + "separates = true\n"));
+  CHECK(parse(cells).liquid.spray);
+  CHECK(!parse(cells + "spray = false\n").liquid.spray);
+  const std::string needs = "liquid.spray = false needs liquid.volume = \"cells\"";
+  check_all({{small_scene + "[liquid]\nspray = false\n", needs},
+             {cells + "spray = 1\n", "liquid.spray must be true or false"},
+             {cells + "spray = false\n[gas]\n", needs},
+             {cells + "spray = false\nprescribed_velocity = [0, 0, 0]\n", needs}});
   CHECK_NOTHROW(parse(cells + "[gas]\n"));
   CHECK_NOTHROW(parse(cells + "[gas]\nbubbles = \"volume_conserving\"\n"));
   CHECK_NOTHROW(parse(cells + ball + "kind = \"static\"\n"));
