@@ -24,7 +24,7 @@ namespace seiche {
 namespace {
 
 // Largest component of the drops' velocities, m/s. Drops need no short steps themselves, but the liquid that they come
-// from does: without this a box in a dam break spilled 2.1 % for 1.1 %. Collective.
+// from does (docs/decisions/0066-drops.md). Collective.
 template <int Dim>
 double fastest_drop(const Domain<Dim>& domain, const Drops<Dim>& drops) {
   double fastest = 0;
