@@ -108,7 +108,7 @@ std::string day_of(std::chrono::system_clock::time_point time) {
 }
 
 // Lines of scenes at the defaults of keys that came after the first records, the newest first.
-constexpr const char* later_lines[] = {"up = \"scene\"", "velocity_name = \"vel\"", "volume = \"auto\"",
+constexpr const char* later_lines[] = {"spray = true", "up = \"scene\"", "velocity_name = \"vel\"", "volume = \"auto\"",
                                        "surface = \"closed\""};
 
 std::string text_of(const Scene& scene) {

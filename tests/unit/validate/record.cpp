@@ -87,10 +87,10 @@ TEST_CASE("a row counts that is older than keys of scenes at their defaults, and
   const auto count = [&] { return older_identities(scene, measure).size(); };
   const std::string present = measured_identity(scene, measure);
   const auto older = older_identities(scene, measure);
-  REQUIRE(older.size() == 4);
+  REQUIRE(older.size() == 5);
   CHECK(older.front() != present);
   scene.output.velocity_name = "v";
-  CHECK(count() == 3);
+  CHECK(count() == 4);
   CHECK(measured_identity(scene, measure) != present);
 }
 
