@@ -557,7 +557,8 @@ def bounces_ranks_agree_2d(bench):
 def impacts_in(checkpoint):
     """Numbers of the impacts in a checkpoint, as coupling/state/checkpoint_state.cpp packs them."""
     data = checkpoint.read_bytes()
-    at = data.index(b"impacts") + len("impacts")
+    key = b"impacts.under_way"
+    at = data.index(key) + len(key)
     return numpy.frombuffer(data, count=int.from_bytes(data[at:at + 8], "little") // 8, offset=at + 8)
 
 

@@ -63,6 +63,27 @@ motor = { target = "wanted", stiffness = 200.0, damping = 20.0, torque = 100.0 }
 """
 
 
+SPLASH = """
+dimension = 2
+[domain]
+upper = [1.0, 1.0]
+cell_size = 0.03125
+[time]
+end = 0.9
+frame_rate = 20
+[liquid]
+volume = "cells"
+[[liquid.region]]
+shape = "box"
+lower = [0.0, 0.0]
+upper = [0.3, 0.7]
+[[liquid.region]]
+shape = "box"
+lower = [0.75, 0.0]
+upper = [1.0, 0.6]
+"""
+
+
 def expect(truth, text):
     if not truth:
         raise AssertionError(text)
@@ -162,6 +183,27 @@ def meshes(program):
         with open(f"{folder}/out/stats.csv", newline="") as file:
             exact = float(list(csv.DictReader(file))[-1]["liquid_volume"])
         expect(abs(volume - exact) < 0.02 * exact, f"{volume} m^3 within the mesh, {exact} m^3 of liquid")
+
+
+def drops(program):
+    """Drops of a frame have the volume that the program's table says."""
+    with tempfile.TemporaryDirectory() as folder:
+        scene = pathlib.Path(folder) / "splash.toml"
+        scene.write_text(SPLASH)
+        subprocess.run([program, "run", scene, "--out", f"{folder}/out", "--quiet", "--threads", "1"], check=True)
+        with open(f"{folder}/out/stats.csv", newline="") as file:
+            rows = [row for row in csv.DictReader(file)]
+        most = 0
+        for n in range(19):
+            frame = seiche.read_frame(f"{folder}/out/frames/frame.{n:04d}.vdb")
+            row = min(rows, key=lambda r: abs(float(r["time"]) - frame["time"]))
+            found = frame["drops"]
+            volume = numpy.pi * (found["radius"] ** 2).sum()
+            expect(len(found["id"]) == int(row["drops"]), f"frame {n} has {len(found['id'])} drops")
+            expect(abs(volume - float(row["volume_drops"])) < 1e-5 * volume + 1e-12, f"{volume} m^2 in drops")   # float
+            expect(numpy.isfinite(found["velocity"]).all() and found["place"].shape == found["velocity"].shape, "velocity")
+            most = max(most, len(found["id"]))
+        expect(most > 2, f"at most {most} drops")
 
 
 def signals(_):
