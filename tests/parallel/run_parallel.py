@@ -555,7 +555,7 @@ def bounces_ranks_agree_2d(bench):
 
 
 def impacts_in(checkpoint):
-    """Numbers of the impacts in a checkpoint, as coupling/state/checkpoint_state.cpp packs them."""
+    """Numbers of the impacts in a checkpoint, as coupling/state/impact_numbers.h packs them."""
     data = checkpoint.read_bytes()
     key = b"impacts.under_way"
     at = data.index(key) + len(key)
