@@ -122,16 +122,14 @@ Scene thrown_boxes(int dim, double e) {
   return s;
 }
 
-// Nine discs that fall and are thrown, in a closed box. With longer steps such crowds may gain energy
-// (docs/contact.md).
-Scene falling_discs(double e) {
+// Nine discs that fall and are thrown, in a closed box; `apart`: m by which each next one is displaced.
+Scene falling_discs(double e, double apart = 0) {
   Scene s = test::box_scene(2, 16, 0.64);
   s.gravity = {0, -g, 0};
-  s.time.max_step = 0.002;
   for (int n = 0; n < 9; ++n) {
     const double x = n / 3, y = n % 3;
-    s.solids.push_back(
-        test::rigid_ball(fmt::format("ball{}", n), 0.07, {0.12 + 0.19 * x + 0.01 * y, 0.11 + 0.2 * y, 0}, 1000));
+    s.solids.push_back(test::rigid_ball(fmt::format("ball{}", n), 0.07,
+                                        {0.12 + 0.19 * x + 0.01 * y + apart * y, 0.11 + 0.2 * y + apart * x, 0}, 1000));
     s.solids.back().rigid.velocity = {0.9 - 0.8 * x + 0.1 * y, -0.9 + 0.6 * y, 0};
   }
   set_restitution(s, e, {"*"});
@@ -184,6 +182,15 @@ TEST_CASE("many impacts at once gain no energy", "[restitution]") {
                 << " of the energy at the start; in the end " << boxes.last << ", " << discs.last << " and "
                 << spinning.last);
     for (const Energies& all : {boxes, discs, spinning}) CHECK(all.highest < 1.001);
+  }
+}
+
+// Several groups rebound in one solve. When all had one share, such scenes had up to 1.17 of the energy at the start.
+TEST_CASE("crowds of discs gain no energy", "[restitution]") {
+  for (const double apart : {-0.003, -0.002, -0.001, 0.001, 0.002, 0.003}) {
+    const Energies discs = energies_of(falling_discs(1, apart), 0.5);
+    WARN(apart << " m: at most " << discs.highest << ", in the end " << discs.last);
+    CHECK(discs.highest < 1.001);
   }
 }
 

@@ -72,25 +72,27 @@ std::string ImpactsOfSolve<Dim>::act(InertiaProblem& problem, Eigen::VectorXd& p
   if (!alone.failure.empty()) return alone.failure;
   before_ = velocities_in(coupling_, state_);
   free_ = alone_ = alone.velocity;
+  Eigen::VectorXd given = Eigen::VectorXd::Zero(push.size());  // apart from `push`, which the problem reads
   for (const Impacts& group : groups_of_due(setup_, state_.impacts, ImpactColumns<Dim>(state_, coupling_, horizon_)))
-    if (std::string failure = act_together(group, problem, push); !failure.empty()) return failure;
+    if (std::string failure = act_together(group, problem, given); !failure.empty()) return failure;
+  push += given;
   return {};
 }
 
 // Beside liquid and joints the same change of speed takes another impulse: the first bound makes up for it. The second
 // one is on the energy of all. Work of groups one after the other: P_k (v_before + v_alone)/2 + sum_{j < k} P_k dv_j.
 template <int Dim>
-std::string ImpactsOfSolve<Dim>::act_together(const Impacts& group, InertiaProblem& problem, Eigen::VectorXd& push) {
+std::string ImpactsOfSolve<Dim>::act_together(const Impacts& group, InertiaProblem& problem, Eigen::VectorXd& given) {
   const Eigen::VectorXd mean = 0.5 * (before_ - alone_) + free_;
   const DueRebounds due = due_rebounds(group, ImpactColumns<Dim>(state_, coupling_, horizon_), mean);
-  const InertiaResponse pushed = problem.minimise(Eigen::SparseMatrix<double>(push.size(), push.size()), due.push);
+  const InertiaResponse pushed = problem.minimise(Eigen::SparseMatrix<double>(given.size(), given.size()), due.push);
   if (!pushed.failure.empty()) return pushed.failure;
   const Eigen::VectorXd change = pushed.velocity - alone_;
   const double curvature = due.push.dot(change);
   if (curvature <= 0) return {};
   const double share = std::min(due.response / curvature, share_within(due.slope, curvature, due.energy));
   work_ += share * (due.slope - due.driven + 0.5 * share * curvature);
-  push += share * due.push;
+  given += share * due.push;
   free_ += share * change;
   return {};
 }

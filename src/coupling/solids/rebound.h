@@ -19,7 +19,7 @@ class ImpactsOfSolve {
   Impacts after(const Eigen::VectorXd& v, const std::vector<PairImpulse>& pairs, double dt) const;
 
  private:
-  std::string act_together(const Impacts& group, InertiaProblem& problem, Eigen::VectorXd& push);
+  std::string act_together(const Impacts& group, InertiaProblem& problem, Eigen::VectorXd& given);
 
   const Setup<Dim>& setup_;
   const State<Dim>& state_;
