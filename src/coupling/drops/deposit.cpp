@@ -9,7 +9,7 @@
 namespace seiche {
 namespace {
 
-// What cells have no room for, and the cells around that take it.
+// Liquid that cells have no room for, and the cells around that take it.
 template <int Dim>
 class Surplus {
  public:

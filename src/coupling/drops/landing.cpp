@@ -37,7 +37,7 @@ Site host_of(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell) {
   return host;
 }
 
-// What faces get: shares of a cell, and these times velocities.
+// Gains of faces: shares of a cell, and these times velocities.
 using FaceGains = std::map<std::pair<int, Site>, std::array<double, 2>>;
 
 // Shares `share` and `momentum` of a cell among its open faces along an axis.
@@ -88,8 +88,7 @@ std::vector<LandedDrop<Dim>> land_drops(const Domain<Dim>& domain, const Obstacl
   CellValues volumes;
   for (const LandedDrop<Dim>& d : landed) volumes.emplace_back(d.cell, d.share);
   add_by_room(l, domain.halo, ledger.room, state.phi, volumes, state.liquid);
-  const CellField<Dim> start;
-  const Spill spill = hand_on_excess(l, domain.halo, domain.ranks, state.phi, ledger, start, state.liquid);
+  const Spill spill = hand_on_excess(l, domain.halo, domain.ranks, state.phi, ledger, {}, state.liquid);
   state.spilled_volume += spill.moved * l.geometry().cell_volume();
   return landed;
 }

@@ -20,7 +20,7 @@ class Obstacles {
   // True if x is beyond a side that lets liquid out.
   bool has_left(const Vec<Dim>& x) const;
   // Brings a drop back through periodic sides, inside closed ones and out of solids: it touches what it reached into.
-  // Of its velocity against them, the normal part is lost.
+  // The normal part of its velocity against them is lost.
   void keep_out(Drop<Dim>& drop) const;
   // True if a drop touches a solid or a closed side.
   bool touches(const Drop<Dim>& drop) const;

@@ -349,7 +349,11 @@ Attempt<Dim> solve_within_room(const Setup<Dim>& s, const State<Dim>& before, Mo
                                Predicted<Dim> predicted, const StepTimes& times, Phases& phases) {
   constexpr int most_solves = 3;  // the fold that closes goes on by a cell a solve; what is left is little
   const Vec3 gravity = s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt);
-  const CellField<Dim> share = share_with_drops(s.domain.layout, s.domain.halo, moved.state.drops, moved.state.liquid);
+  const Drops<Dim>& drops = moved.state.drops;
+  std::optional<CellField<Dim>> with_drops;
+  if (s.domain.ranks.any(!drops.list.empty()))
+    with_drops = share_with_drops(s.domain.layout, s.domain.halo, drops, moved.state.liquid);
+  const CellField<Dim>& share = with_drops ? *with_drops : moved.state.liquid;
   const FillingStep<Dim> step{share, before.now->u, gravity, times.dt, moved.state.room(), &*moved.state.exterior};
   for (int solves = 1, iterations = 0;; ++solves) {
     Attempt<Dim> out = solve_and_plan(s, before, moved, predicted, times, phases);

@@ -41,19 +41,18 @@ void leave_covered(const Layout<Dim>& layout, const Halo<Dim>& halo, const Ledge
   fill_share_ghosts(layout, halo, share);
 }
 
-constexpr int pressed_reach = 2;  // cells around those whose room changed
-
-// 1 on the cells within `more` of those whose room changed, among the owned ones and `more` beyond.
+// 1 on the cells within two of those whose room changed, among the owned ones and two beyond.
 template <int Dim>
-CellField<Dim, char> cells_near_changes(const Layout<Dim>& layout, const Ledger<Dim>& ledger, int more) {
+CellField<Dim, char> cells_near_changes(const Layout<Dim>& layout, const Ledger<Dim>& ledger) {
+  constexpr int reach = 2;
   CellField<Dim, char> near(layout);
-  const Box<Dim> box = cells_around(layout, more + 1);
+  const Box<Dim> box = cells_around(layout, reach + 1);
   std::vector<Site> sites;
   const auto look = [&](Site c, double) {
     if (ledger.room.of(c) != ledger.after.of(c) && box.contains(layout.index(c))) sites.push_back(c);
   };
   ledger.room.each_stored(look), ledger.after.each_stored(look);
-  mark_around(layout, sites, more, near);
+  mark_around(layout, sites, reach, near);
   return near;
 }
 
@@ -65,16 +64,15 @@ struct PressedCells {
   CellField<Dim> due;
 
   PressedCells(const Layout<Dim>& layout, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
-               const CellField<Dim>& mismatch, const CellField<Dim>& share)
+               const RoomChange<Dim>& change, const CellField<Dim>& share)
       : among(layout), due(layout) {
     constexpr double depth = 1.2;  // cells, as for is_deep()
-    const CellField<Dim, char> near = cells_near_changes(layout, ledger, pressed_reach);
-    for_each_marked(layout, cells_around(layout, 1), near.data(), [&](Site c) {
-      const double room = ledger.after.of(c), came = room + mismatch[c];
+    for_each_marked(layout, cells_around(layout, 1), change.near.data(), [&](Site c) {
+      const double room = ledger.after.of(c), m = change.mismatch[c], came = room + m;
       if (!(room > 0) || !(phi[c] < 0)) return;
       among[c] = 1;
       const double fullness = came > 0 ? std::clamp(share[c] / came, 0.0, 1.0) : 0;
-      due[c] = phi[c] < -depth * layout.h() ? room : std::min(room, share[c] - fullness * mismatch[c]);
+      due[c] = phi[c] < -depth * layout.h() ? room : std::min(room, share[c] - fullness * m);
     });
   }
 };
@@ -108,34 +106,33 @@ void even_out_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Roo
 }  // namespace
 
 template <int Dim>
-CellField<Dim> mismatch_of_room(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const FaceField<Dim>& u,
-                                double dt) {
-  CellField<Dim> mismatch(layout);
-  const CellField<Dim, char> near = cells_near_changes(layout, ledger, pressed_reach);
-  for_each_marked(layout, cells_around(layout, 1), near.data(), [&](Site c) {
+RoomChange<Dim> change_of_room(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const FaceField<Dim>& u,
+                               double dt) {
+  RoomChange<Dim> change{cells_near_changes(layout, ledger), CellField<Dim>(layout)};
+  for_each_marked(layout, cells_around(layout, 1), change.near.data(), [&](Site c) {
     double in = 0;
     for (int a = 0; a < Dim; ++a) {
       const Site high = c + layout.stride(a);
       in += ledger.room.through(a, c) * u.at(a, c) - ledger.room.through(a, high) * u.at(a, high);
     }
-    mismatch[c] = ledger.room.of(c) + dt / layout.h() * in - ledger.after.of(c);
+    change.mismatch[c] = ledger.room.of(c) + dt / layout.h() * in - ledger.after.of(c);
   });
-  return mismatch;
+  return change;
 }
 
 template <int Dim>
 void follow_moved_solids(const Layout<Dim>& layout, const Halo<Dim>& halo, const CellField<Dim>& phi,
-                         const Ledger<Dim>& ledger, const CellField<Dim>& mismatch, CellField<Dim>& share) {
-  const PressedCells<Dim> pressed(layout, phi, ledger, mismatch, share);
+                         const Ledger<Dim>& ledger, const RoomChange<Dim>& change, CellField<Dim>& share) {
+  const PressedCells<Dim> pressed(layout, phi, ledger, change, share);
   leave_covered(layout, halo, ledger, share);
   even_out_excess(layout, halo, ledger.after, pressed, share);
   fill_share_ghosts(layout, halo, share);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                   \
-  template CellField<D> mismatch_of_room<D>(const Layout<D>&, const Ledger<D>&, const FaceField<D>&, double);   \
+  template RoomChange<D> change_of_room<D>(const Layout<D>&, const Ledger<D>&, const FaceField<D>&, double);    \
   template void follow_moved_solids<D>(const Layout<D>&, const Halo<D>&, const CellField<D>&, const Ledger<D>&, \
-                                       const CellField<D>&, CellField<D>&);
+                                       const RoomChange<D>&, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -130,10 +130,10 @@ void fill_share_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellFie
 
 template <int Dim>
 Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, const CellField<Dim>& mismatch,
+                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, const RoomChange<Dim>& change,
                      CellField<Dim>& share) {
   Spill all;
-  if (ledger.has_moved()) follow_moved_solids(layout, halo, phi, ledger, mismatch, share);
+  if (ledger.has_moved()) follow_moved_solids(layout, halo, phi, ledger, change, share);
   const LedgerRules<Dim> present = ledger.at_end();
   hand_to_hosts(layout, halo, present.room, share);
   for (int round = 0; round < 3; ++round) {
@@ -148,7 +148,7 @@ Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Com
 
 #define SEICHE_INSTANTIATE(D)                                                                                  \
   template Spill hand_on_excess<D>(const Layout<D>&, const Halo<D>&, const Communicator&, const CellField<D>&, \
-                                   const Ledger<D>&, const CellField<D>&, CellField<D>&);                      \
+                                   const Ledger<D>&, const RoomChange<D>&, CellField<D>&);                     \
   template void fill_share_ghosts<D>(const Layout<D>&, const Halo<D>&, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,7 +1,7 @@
 #pragma once
 // Redistribution: liquid beyond a cell's capacity goes to its neighbours, and a negative amount is made up from them.
 #include "base/communicator.h"
-#include "fluid/volume/ledger.h"
+#include "fluid/volume/moved_solids.h"
 #include "grid/halo.h"
 
 namespace seiche {
@@ -12,11 +12,11 @@ struct Spill {
 };
 
 // phi (m) tells which cells are deep (ledger.h): they keep their excess. Three rounds, each from the shares before it,
-// so that the result does not depend on the ranks. What finds no room stays. `mismatch`: that of room where
-// solids have moved (moved_solids.h), else not read. Fills ghosts. Collective.
+// so that the result does not depend on the ranks. What finds no room stays. `change`: of the room where
+// solids have moved, else not read. Fills ghosts. Collective.
 template <int Dim>
 Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, const CellField<Dim>& mismatch,
+                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, const RoomChange<Dim>& change,
                      CellField<Dim>& share);
 
 // Ghosts of shares; beyond sides those of the cells at them. Collective.

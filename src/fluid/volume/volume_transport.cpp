@@ -228,7 +228,7 @@ int cells_of_paths(const Layout<Dim>& layout, const Communicator& ranks, const F
 template <int Dim>
 VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
                       const FrozenFlow<Dim>& flow, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
-                      const CellField<Dim>& mismatch, bool is_last, CellField<Dim>& share) {
+                      const RoomChange<Dim>& change, bool is_last, CellField<Dim>& share) {
   const CountedShares<Dim> counted(layout, ledger, phi, share, flow.velocity.fed);
   const LiquidInCells<Dim> liquid(layout, phi, counted, ledger.divergence == Divergence::stays);
   FaceField<Dim> flux = fluxes(layout, ledger.room, flow, liquid, counted);
@@ -251,7 +251,7 @@ VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Co
   ranks.global_sum(sums);
   const bool hands_on = is_last || !ledger.has_moved();
   return {sums[0], sums[1], sums[2],
-          hands_on ? hand_on_excess(layout, halo, ranks, phi, ledger, mismatch, share) : Spill{}, 0};
+          hands_on ? hand_on_excess(layout, halo, ranks, phi, ledger, change, share) : Spill{}, 0};
 }
 
 }  // namespace
@@ -265,8 +265,8 @@ VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const 
   CellField<Dim, char> fed;
   if (!flow.fed.empty()) fed = CellField<Dim, char>(layout);
   for (const Site c : flow.fed) fed[c] = 1;
-  const CellField<Dim> mismatch =
-      ledger.has_moved() ? mismatch_of_room(layout, ledger, flow.through, dt) : CellField<Dim>();
+  const RoomChange<Dim> change =
+      ledger.has_moved() ? change_of_room(layout, ledger, flow.through, dt) : RoomChange<Dim>();
   VolumeStep all;
   for (int parts = 1, done = 0; done < parts;) {
     const double part = dt / parts;
@@ -280,7 +280,7 @@ VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const 
       parts *= 2;
       continue;
     }
-    all += carry_part(layout, halo, ranks, {flow, part, 1.0 / parts, near, origins, fed}, phi, ledger, mismatch,
+    all += carry_part(layout, halo, ranks, {flow, part, 1.0 / parts, near, origins, fed}, phi, ledger, change,
                       done + 1 == parts, share);
     all.too_far += too_far;
     ++done;

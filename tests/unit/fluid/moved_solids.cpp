@@ -36,7 +36,7 @@ struct Tank {
   Site cell(int i) const { return layout.site(IVec<Dim>(IVec<Dim>::Constant(4) + (i - 4) * IVec<Dim>::Unit(0))); }
   LedgerRules<Dim> ledger() const { return {Divergence::stays, Room<Dim>(before), Room<Dim>(after)}; }
   // No flow.
-  CellField<Dim> mismatch() const { return mismatch_of_room(layout, ledger(), FaceField<Dim>(layout), 1); }
+  RoomChange<Dim> change() const { return change_of_room(layout, ledger(), FaceField<Dim>(layout), 1); }
   double total() const {
     return local_sum(layout, layout.cells(), [&](Site c, const IVec<Dim>&) { return share[c]; });
   }
@@ -57,11 +57,11 @@ void check_full_cells() {
   t.share[t.cell(3)] = 0.9, t.share[t.cell(4)] = 0.1;
   fill_share_ghosts(t.layout, t.halo, t.share);
   const double total = t.total();
-  follow_moved_solids(t.layout, t.halo, t.phi, t.ledger(), t.mismatch(), t.share);
+  follow_moved_solids(t.layout, t.halo, t.phi, t.ledger(), t.change(), t.share);
   CHECK(t.total() == Approx(total).epsilon(1e-14));
   CHECK(t.share[t.cell(4)] == 0);
   CHECK(t.worst_excess() < 0.04);
-  CHECK(hand_on_excess(t.layout, t.halo, t.ranks, t.phi, t.ledger(), t.mismatch(), t.share).moved ==
+  CHECK(hand_on_excess(t.layout, t.halo, t.ranks, t.phi, t.ledger(), t.change(), t.share).moved ==
         0);  // deep cells keep it
 }
 
@@ -73,7 +73,7 @@ void check_surface_cells() {
   t.before.cells.set(t.cell(3), 0.5);
   t.share[t.cell(3)] = 0.7, t.share[t.cell(5)] = 0.4;
   fill_share_ghosts(t.layout, t.halo, t.share);
-  follow_moved_solids(t.layout, t.halo, t.phi, t.ledger(), t.mismatch(), t.share);
+  follow_moved_solids(t.layout, t.halo, t.phi, t.ledger(), t.change(), t.share);
   CHECK(t.share[t.cell(3)] == 0.7);
   CHECK(t.share[t.cell(5)] == 0.4);
 }
@@ -86,7 +86,7 @@ void check_cut_surface_cell() {
   t.before.cells.set(t.cell(3), 0.5), t.after.cells.set(t.cell(3), 0.5 + 1e-15);
   t.share[t.cell(3)] = 0.5, t.share[t.cell(4)] = 0.95;
   fill_share_ghosts(t.layout, t.halo, t.share);
-  follow_moved_solids(t.layout, t.halo, t.phi, t.ledger(), t.mismatch(), t.share);
+  follow_moved_solids(t.layout, t.halo, t.phi, t.ledger(), t.change(), t.share);
   CHECK(t.share[t.cell(4)] == Approx(0.95).epsilon(1e-14));
 }
 
@@ -101,7 +101,7 @@ void check_no_overdraft() {
     for (const int way : {-1, 1}) t.share[t.cell(4) + way * t.layout.stride(a)] = -0.01;
   fill_share_ghosts(t.layout, t.halo, t.share);
   const double total = t.total();
-  (void)hand_on_excess(t.layout, t.halo, t.ranks, t.phi, t.ledger(), t.mismatch(), t.share);
+  (void)hand_on_excess(t.layout, t.halo, t.ranks, t.phi, t.ledger(), t.change(), t.share);
   CHECK(t.total() == Approx(total).margin(1e-16));
   CHECK(t.share[t.cell(4)] >= -1e-17);
 }
