@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 namespace seiche {
 
 Range any_number() {
@@ -32,44 +34,27 @@ std::string describe(const Range& range) {
 }
 
 std::string type_name(OptionType type) {
-  switch (type) {
-    case OptionType::number:
-      return "a number";
-    case OptionType::integer:
-      return "a whole number";
-    case OptionType::boolean:
-      return "true or false";
-    case OptionType::text:
-      return "a text in quotes";
-    case OptionType::choice:
-      return "a name in quotes";
-    case OptionType::choice_list:
-    case OptionType::names:
-      return "an array of names in quotes";
-    case OptionType::pair:
-      return "an array of two names in quotes";
-    case OptionType::interval:
-      return "an array of two numbers";
-    case OptionType::vector:
-      return "an array of numbers";
-    case OptionType::axis:
-      return "an array of three numbers";
-    case OptionType::quaternion:
-      return "an array of four numbers";
-    case OptionType::spin:
-      return "an array of three numbers (2D: a number)";
-    case OptionType::formula:
-      return "a number or an expression in quotes";
-    case OptionType::formula_vector:
-      return "an array of numbers or expressions in quotes";
-    case OptionType::file:
-      return "a path in quotes";
-    case OptionType::table:
-      return "a table";
-    case OptionType::table_list:
-      return "an array of tables";
-  }
-  return "";
+  using T = OptionType;
+  static const std::map<T, std::string> names{{T::number, "a number"},
+                                              {T::integer, "a whole number"},
+                                              {T::boolean, "true or false"},
+                                              {T::text, "a text in quotes"},
+                                              {T::choice, "a name in quotes"},
+                                              {T::choice_list, "an array of names in quotes"},
+                                              {T::names, "an array of names in quotes"},
+                                              {T::pair, "an array of two names in quotes"},
+                                              {T::interval, "an array of two numbers"},
+                                              {T::vector, "an array of numbers"},
+                                              {T::points, "an array of points, each an array of numbers"},
+                                              {T::axis, "an array of three numbers"},
+                                              {T::quaternion, "an array of four numbers"},
+                                              {T::spin, "an array of three numbers (2D: a number)"},
+                                              {T::formula, "a number or an expression in quotes"},
+                                              {T::formula_vector, "an array of numbers or expressions in quotes"},
+                                              {T::file, "a path in quotes"},
+                                              {T::table, "a table"},
+                                              {T::table_list, "an array of tables"}};
+  return names.at(type);
 }
 
 std::string quoted_list(const std::vector<std::string>& names) {

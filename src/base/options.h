@@ -18,6 +18,7 @@ enum class OptionType {
   names,           // any number of names, at least one
   interval,        // two numbers
   vector,          // as many numbers as the scene has dimensions
+  points,          // vectors, any number of them
   axis,            // three numbers in 2D and 3D
   quaternion,      // four numbers
   spin,            // angular velocity: three numbers; in 2D one, about z

@@ -2,6 +2,7 @@
 // Shapes of a scene: liquid, solids, sources, pins. Plain data in SI units.
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "base/formula.h"
 #include "base/vec.h"
@@ -28,11 +29,15 @@ struct ShapeSpec {
   Vec3 point{0, 0, 0}, normal{0, 1, 0};
   double radius = 0;
   std::filesystem::path file;     // resolved against the scene's folder
+  std::vector<Vec3> points;       // polygon: its corners in order
   Formula phi;                    // negative inside
   std::optional<std::string> up;  // height_map: axis of its heights, "y" or "-y"; unset: that against gravity
   bool invert = false;
   TransformSpec transform;
   std::string where;  // "scene.toml:14" for messages
+
+  // True if the scene or its file gives the facets of the surface.
+  bool has_facets() const { return kind == "mesh" || kind == "polygon"; }
 };
 
 }  // namespace seiche

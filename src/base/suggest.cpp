@@ -5,9 +5,11 @@
 namespace seiche {
 namespace {
 
-// Length of the common prefix.
-std::ptrdiff_t common_start(const std::string& a, const std::string& b) {
-  return std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin();
+// Letters that the words share at their starts and ends.
+std::ptrdiff_t common_letters(const std::string& a, const std::string& b) {
+  const auto start = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin();
+  const auto end = std::mismatch(a.rbegin(), a.rend(), b.rbegin(), b.rend()).first - a.rbegin();
+  return std::min(start + end, std::ptrdiff_t(std::min(a.size(), b.size())));
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ std::optional<std::string> suggest(const std::string& word, const std::vector<st
     const int distance = edit_distance(word, candidate);
     if (distance > best_distance || distance >= int(candidate.size())) continue;
     const bool tied = distance == best_distance;
-    if (tied && (!best || common_start(word, candidate) <= common_start(word, *best))) continue;
+    if (tied && (!best || common_letters(word, candidate) <= common_letters(word, *best))) continue;
     best_distance = distance;
     best = candidate;
   }

@@ -53,6 +53,8 @@ JsonMembers value_schema(const Option& option) {
     case T::vector:
     case T::formula_vector:
       return members(array_of(number_or_text(), 2, 3));
+    case T::points:
+      return {{"type", "array"}, {"items", array_of(number_or_text(), 2, 2)}, {"minItems", 3}};
     case T::axis:
       return members(array_of(number_or_text(), 3, 3));
     case T::quaternion:

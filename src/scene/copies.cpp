@@ -50,7 +50,7 @@ std::optional<Vec3> middle_of(const ShapeSpec& shape) {
   if (shape.kind == "box") return at(0.5 * (shape.lower + shape.upper));
   if (shape.kind == "sphere") return at(shape.center);
   if (shape.kind == "cylinder" || shape.kind == "capsule") return at(0.5 * (shape.from + shape.to));
-  return shape.kind == "mesh" || shape.kind == "expression" ? std::optional(at(Vec3::Zero())) : std::nullopt;
+  return shape.has_facets() || shape.kind == "expression" ? std::optional(at(Vec3::Zero())) : std::nullopt;
 }
 
 // Radius of a ball about the middle that holds the shape, m, if it is known without a file.

@@ -107,6 +107,21 @@ Key<ShapeSpec> point_key(const std::vector<std::string>& shapes, const std::stri
   return geometry_key(shapes, {.key = name, .type = T::vector, .unit = "m", .doc = doc}, member);
 }
 
+Key<ShapeSpec> file_key() {
+  return geometry_key(
+      {"mesh", "level_set", "height_map"},
+      {.key = "file",
+       .type = T::file,
+       .doc = "mesh: closed triangles (.obj, .ply, .stl), in 2D closed outlines (.csv, .txt: x and y of a "
+              "point a row, an empty line between outlines; .obj: lines), for elastic solids also "
+              "elements (.msh, .vtu, .mesh); level_set: a frame of Seiche (.vdb); height_map: a grey "
+              "picture of 8 or 16 bits "
+              "(.png), or numbers, a "
+              "row a line (.csv, .txt, .asc), as seen from above with the first axis across up to the "
+              "right; 2D: one row"},
+      &ShapeSpec::file);
+}
+
 std::vector<Key<ShapeSpec>> geometry_keys() {
   using S = ShapeSpec;
   return {
@@ -123,17 +138,13 @@ std::vector<Key<ShapeSpec>> geometry_keys() {
       point_key({"plane"}, "point", &S::point, "a point of the plane"),
       geometry_key({"plane"}, {.key = "normal", .type = T::vector, .doc = "points out of the shape; any length"},
                    &S::normal),
-      geometry_key({"mesh", "level_set", "height_map"},
-                   {.key = "file",
-                    .type = T::file,
-                    .doc = "mesh: closed triangles (.obj, .ply, .stl), in 2D closed outlines (.csv, .txt: x and y of a "
-                           "point a row, an empty line between outlines; .obj: lines), for elastic solids also "
-                           "elements (.msh, .vtu, .mesh); level_set: a frame of Seiche (.vdb); height_map: a grey "
-                           "picture of 8 or 16 bits "
-                           "(.png), or numbers, a "
-                           "row a line (.csv, .txt, .asc), as seen from above with the first axis across up to the "
-                           "right; 2D: one row"},
-                   &S::file),
+      file_key(),
+      geometry_key({"polygon"},
+                   {.key = "points",
+                    .type = T::points,
+                    .unit = "m",
+                    .doc = "corners of a closed outline in order, three or more; the last is joined to the first"},
+                   &S::points),
       value_key<S>({.key = "up",
                     .type = T::choice,
                     .choices = {"x", "y", "z", "-x", "-y", "-z"},
@@ -185,6 +196,24 @@ void check_extent(SceneContext& c, const Place& p, const ShapeSpec& shape) {
   }
 }
 
+// Outlines that cross themselves are found as the shape is made.
+void check_polygon(SceneContext& c, const Place& p, const ShapeSpec& shape) {
+  const std::string path = join_path(p.path, "points");
+  if (c.dimension != 2)
+    return c.report(p, join_path(p.path, "shape") + ": a polygon exists in 2D only; give a mesh, or an expression");
+  std::vector<Vec3> corners = shape.points;
+  if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+  const Place place{&p.node->find("points")->value, path};
+  if (corners.size() < 3)
+    return c.report(place, fmt::format("{} gives {} corner{}; an outline takes 3 or more", path, corners.size(),
+                                       corners.size() == 1 ? "" : "s"));
+  for (std::size_t n = 1; n < corners.size(); ++n)
+    if (corners[n] == corners[n - 1])
+      return c.report({&place.node->items[n], path},
+                      fmt::format("{}: corners {} and {} are both ({:g}, {:g}); remove one", path, n, n + 1,
+                                  corners[n][0], corners[n][1]));
+}
+
 }  // namespace
 
 void check_axis(SceneContext& c, const Place& p, const Vec3& axis) {
@@ -210,6 +239,7 @@ void finish_shape(SceneContext& c, const Place& p, ShapeSpec& shape, MeshFiles f
     c.report(
         p, fmt::format("the {} of {} has no axis: from and to are the same point", shape.kind, section_title(p.path)));
   }
+  if (shape.kind == "polygon") check_polygon(c, p, shape);
   if (!shape.file.empty()) check_extension(c, p, shape, files);
 }
 
@@ -228,13 +258,13 @@ Section<ShapeSpec> shape_section() {
   const auto transform = [](auto& shape) -> auto& {
     return shape.transform;
   };
-  s.keys = {value_key<ShapeSpec>(
-      {.key = "shape",
-       .type = T::choice,
-       .choices = {"box", "sphere", "cylinder", "capsule", "plane", "mesh", "expression", "level_set", "height_map"},
-       .presence = Presence::required,
-       .doc = "kind of shape; it decides which further keys there are"},
-      &ShapeSpec::kind)};
+  s.keys = {value_key<ShapeSpec>({.key = "shape",
+                                  .type = T::choice,
+                                  .choices = {"box", "sphere", "cylinder", "capsule", "plane", "polygon", "mesh",
+                                              "expression", "level_set", "height_map"},
+                                  .presence = Presence::required,
+                                  .doc = "kind of shape; it decides which further keys there are; polygon: in 2D"},
+                                 &ShapeSpec::kind)};
   for (Key<ShapeSpec>& key : geometry_keys()) s.keys.push_back(std::move(key));
   s.keys.push_back(value_key<ShapeSpec>({.key = "invert",
                                          .type = T::boolean,

@@ -26,7 +26,8 @@ std::vector<Key<LiquidSourceSpec>> begin_keys(const std::string& what) {
   return {value_key<LiquidSourceSpec>(
               {.key = "from",
                .unit = "s",
-               .only_for = {"shape", {"box", "sphere", "plane", "mesh", "expression", "level_set", "height_map"}},
+               .only_for = {"shape",
+                            {"box", "sphere", "plane", "polygon", "mesh", "expression", "level_set", "height_map"}},
                .unset = "0.0",
                .doc = "when the " + what + " begins"},
               &LiquidSourceSpec::from),

@@ -65,6 +65,11 @@ std::string to_toml(const std::vector<std::string>& value, const Option& option,
   return array_text(value, value.size(), quote_toml);
 }
 
+std::string to_toml(const std::vector<Vec3>& value, const Option& option, int dimension) {
+  if (value.empty()) return {};
+  return array_text(value, value.size(), [&](const Vec3& x) { return to_toml(x, option, dimension); });
+}
+
 std::string to_toml(const std::array<double, 2>& value, const Option&, int) {
   return array_text(value, 2, [](double v) { return number_text(v); });
 }

@@ -247,4 +247,14 @@ bool check_choice(SceneContext& c, const Place& p, const Option& option, const s
   return false;
 }
 
+void read_value(SceneContext& c, const Place& p, const Option& option, std::vector<Vec3>& out) {
+  if (p.node->kind != Kind::array) return report_type(c, p, option);
+  Option one = option;
+  one.type = OptionType::vector;
+  std::vector<Vec3> points(p.node->items.size(), Vec3::Zero());
+  const std::size_t before = c.problem_count();
+  for (std::size_t n = 0; n < points.size(); ++n) read_value(c, item(p, n), one, points[n]);
+  if (c.problem_count() == before) out = std::move(points);
+}
+
 }  // namespace seiche

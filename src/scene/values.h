@@ -22,6 +22,7 @@ void read_value(SceneContext& context, const Place& place, const Option& option,
 void read_value(SceneContext& context, const Place& place, const Option& option, std::string& out);
 void read_value(SceneContext& context, const Place& place, const Option& option, std::vector<std::string>& out);
 void read_value(SceneContext& context, const Place& place, const Option& option, std::array<double, 2>& out);
+void read_value(SceneContext& context, const Place& place, const Option& option, std::vector<Vec3>& out);
 // An existing file, resolved against the scene's folder, and inside it unless the scene permits others.
 void read_value(SceneContext& context, const Place& place, const Option& option, std::filesystem::path& out);
 
@@ -45,6 +46,7 @@ std::string to_toml(const VectorFormula& value, const Option& option, int dimens
 std::string to_toml(const std::string& value, const Option& option, int dimension);
 std::string to_toml(const std::vector<std::string>& value, const Option& option, int dimension);
 std::string to_toml(const std::array<double, 2>& value, const Option& option, int dimension);
+std::string to_toml(const std::vector<Vec3>& value, const Option& option, int dimension);
 std::string to_toml(const std::filesystem::path& value, const Option& option, int dimension);
 
 template <class T>

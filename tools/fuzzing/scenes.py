@@ -122,7 +122,7 @@ def solid(c, center, radius):
     if c.rng.random() < 0.9 or here["kind"] == "elastic":
         here = {"name": VALUES["solid[]", "name"](c, here), **here}
     elastic = here["kind"] == "elastic"
-    kinds = c.choices("solid[]", "shape")
+    kinds = [k for k in c.choices("solid[]", "shape") if k != "polygon" or c.dim == 2]
     if here["kind"] != "static":
         kinds = [k for k in kinds if k not in ("plane", "height_map")]
     files = [f"block{c.dim}.{e}" for e in ("msh", "mesh", "vtu")] if elastic else []
@@ -146,7 +146,7 @@ def solid(c, center, radius):
         here["element_size"] = VALUES["solid[]", "element_size"](c, here)
         c.use("solid[]", "element_size")
     c.fill("solid[]", here)
-    if elastic and c.rng.random() < 0.9 and kind != "mesh":
+    if elastic and c.rng.random() < 0.9 and kind not in ("mesh", "polygon"):
         c.followed[here["name"]] = center
     c.bodies.append(here)
     return {key: value for key, value in here.items() if value is not None}

@@ -3,7 +3,7 @@ import math
 
 AXES = "xyz"
 GEOMETRY = {"box": ("lower", "upper"), "sphere": ("center", "radius"), "cylinder": ("from", "to", "radius"),
-            "capsule": ("from", "to", "radius"), "plane": ("point", "normal"), "mesh": ("file",),
+            "capsule": ("from", "to", "radius"), "plane": ("point", "normal"), "mesh": ("file",), "polygon": ("points",),
             "expression": ("phi",), "level_set": ("file",), "height_map": ("lower", "upper", "file", "up")}
 TRANSFORM = ("invert", "scale", "rotate", "translate")
 KEYS = {"shape", *TRANSFORM, *(key for keys in GEOMETRY.values() for key in keys)}
@@ -64,7 +64,16 @@ def height_map(rng, dim, center, r):
             "up": rng.choice(["", "-"]) + AXES[up]}
 
 
-MAKERS = {"box": box, "sphere": ball, "cylinder": rod, "capsule": rod, "plane": plane, "expression": formula,
+def polygon(rng, dim, center, r):
+    """A star about the center: corners at rising angles, from half of r to r away."""
+    count = rng.randint(3, 9)
+    turns = [2 * math.pi * (n + rng.uniform(0, 0.5)) / count for n in range(count)]
+    away = [r * rng.uniform(0.5, 1.0) for _ in range(count)]
+    corners = [point((center[0] + d * math.cos(t), center[1] + d * math.sin(t))) for d, t in zip(away, turns)]
+    return {"points": corners[::rng.choice((1, -1))]}
+
+
+MAKERS = {"polygon": polygon, "box": box, "sphere": ball, "cylinder": rod, "capsule": rod, "plane": plane, "expression": formula,
           "height_map": height_map}
 
 

@@ -100,7 +100,7 @@ def pool(c):
 
 
 def random_shape(c, table, center, r, files=None):
-    kind = c.rng.choice(c.choices(table, "shape"))
+    kind = c.rng.choice([k for k in c.choices(table, "shape") if k != "polygon" or c.dim == 2])
     shape = fit_shape(c.rng, c.dim, kind, center, r, files or SURFACES[c.dim])
     c.use_shape(table, shape)
     return shape
@@ -213,7 +213,7 @@ def pins(c, _):
         center = list(c.slot)
         center[axis] += side_of * c.radius * (0.9 if two else 0.6)
         left_out = ("plane", "height_map") * two
-        kinds = [k for k in c.choices("solid[].pinned", "shape") if k not in left_out]
+        kinds = [k for k in c.choices("solid[].pinned", "shape") if k not in left_out and (k != "polygon" or c.dim == 2)]
         here = fit_shape(c.rng, c.dim, c.rng.choice(kinds), center, (0.8 if two else 1.4) * c.radius, SURFACES[c.dim])
         if here["shape"] == "plane" and "translate" not in here:
             here["point"] = point(c.slot)

@@ -224,6 +224,17 @@ SurfaceMesh read_closed_polylines(const std::filesystem::path& file, std::vector
   return mesh;
 }
 
+SurfaceMesh close_polyline(const std::vector<Vec3>& corners) {
+  SurfaceMesh mesh;
+  mesh.points = corners;
+  for (int n = 0; n < int(corners.size()); ++n) mesh.segments.push_back({n, (n + 1) % int(corners.size())});
+  mesh::weld(mesh);
+  std::vector<std::string> unheard;
+  mesh::drop_lines_without_length(mesh, unheard);
+  mesh::orient_loops(mesh);
+  return mesh;
+}
+
 Vec3 polyline_extent(const std::filesystem::path& file) {
   const SurfaceMesh mesh = mesh::parse_polylines(file);
   Vec3 lower = mesh.points.front(), upper = lower;

@@ -15,6 +15,9 @@ namespace seiche {
 // naming the file and the line, or the number and place of the defects.
 SurfaceMesh read_closed_polylines(const std::filesystem::path& file, std::vector<std::string>& notes);
 
+// The outline through corners with z = 0, the last one joined to the first, with the same checks and direction.
+SurfaceMesh close_polyline(const std::vector<Vec3>& corners);
+
 namespace mesh {
 
 // Pairs of segments with a common point other than one at which they join, lower index first, in ascending order.

@@ -78,7 +78,7 @@ SurfaceMesh contact_surface(const ShapeSpec& spec, const ShapeOptions& options, 
   for (const Row<Dim>& row : primitives<Dim>) {
     if (spec.kind == row.kind) return primitive_surface<Dim>(spec, options, row);
   }
-  if (spec.kind == "mesh") return shape::read_shape_mesh<Dim>(spec, {options.cell_size, nullptr});
+  if (spec.has_facets()) return shape::read_shape_mesh<Dim>(spec, {options.cell_size, nullptr});
   if (spec.kind != "plane") return contoured_surface<Dim>(spec, options, lower, upper);
   make_shape<Dim>(spec, options);
   return plane_surface<Dim>(spec, lower, upper);

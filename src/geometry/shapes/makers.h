@@ -33,7 +33,7 @@ Field<Dim> make_height_map(const ShapeSpec& spec, const ShapeOptions& options);
 template <int Dim>
 Field<Dim> make_mesh(const ShapeSpec& spec, const ShapeOptions& options);
 
-// The closed mesh of a "mesh" shape, transformed. With invert its facets face the other way.
+// The closed mesh of a "mesh" shape, or a polygon's outline, transformed. With invert its facets face the other way.
 template <int Dim>
 SurfaceMesh read_shape_mesh(const ShapeSpec& spec, const ShapeOptions& options);
 

@@ -10,6 +10,7 @@
 #include "base/expression.h"
 #include "geometry/mesh/polyline.h"
 #include "geometry/shapes/makers.h"
+#include "geometry/shapes/mesh_shape.h"
 #include "geometry/shapes/sampled_mesh.h"
 #include "geometry/vdb/openvdb_adapter.h"
 
@@ -96,7 +97,9 @@ void turn_inside_out(SurfaceMesh& mesh) {
 template <int Dim>
 SurfaceMesh read_shape_mesh(const ShapeSpec& spec, const ShapeOptions& options) {
   std::vector<std::string> notes;
-  SurfaceMesh mesh = Dim == 2 ? read_closed_polylines(spec.file, notes) : read_closed_mesh(spec.file, notes);
+  SurfaceMesh mesh = spec.kind == "polygon" ? close_polyline(spec.points)
+                     : Dim == 2             ? read_closed_polylines(spec.file, notes)
+                                            : read_closed_mesh(spec.file, notes);
   if (options.notes) options.notes->insert(options.notes->end(), notes.begin(), notes.end());
   transform_points(mesh.points, spec.transform);
   if (spec.invert) turn_inside_out(mesh);
@@ -108,14 +111,7 @@ Field<Dim> make_mesh(const ShapeSpec& spec, const ShapeOptions& options) {
   require_cell_size(options, spec.kind);
   ShapeSpec upright = spec;
   upright.invert = false;  // make_shape() inverts the distance
-  SurfaceMesh mesh = read_shape_mesh<Dim>(upright, options);
-  if constexpr (Dim == 2) {
-    return std::make_unique<PolylineShape>(std::move(mesh));
-  } else {
-    auto field = std::make_unique<SampledShape<3>>();
-    field->distance = std::make_unique<SampledMesh>(std::move(mesh), options.cell_size, mesh_band);
-    return field;
-  }
+  return make_mesh_shape<Dim>(read_shape_mesh<Dim>(upright, options), options.cell_size);
 }
 
 template <int Dim>
@@ -135,3 +131,21 @@ template Field<2> make_level_set<2>(const ShapeSpec&, const ShapeOptions&);
 template Field<3> make_level_set<3>(const ShapeSpec&, const ShapeOptions&);
 
 }  // namespace seiche::shape
+
+namespace seiche {
+
+template <int Dim>
+std::unique_ptr<ShapeField<Dim>> make_mesh_shape(SurfaceMesh mesh, double cell_size) {
+  if constexpr (Dim == 2) {
+    return std::make_unique<shape::PolylineShape>(std::move(mesh));
+  } else {
+    auto field = std::make_unique<shape::SampledShape<3>>();
+    field->distance = std::make_unique<SampledMesh>(std::move(mesh), cell_size, shape::mesh_band);
+    return field;
+  }
+}
+
+template std::unique_ptr<ShapeField<2>> make_mesh_shape<2>(SurfaceMesh, double);
+template std::unique_ptr<ShapeField<3>> make_mesh_shape<3>(SurfaceMesh, double);
+
+}  // namespace seiche

@@ -24,12 +24,13 @@ struct Row {
 
 // The shape table. A new shape needs one more row.
 template <int Dim>
-constexpr std::array<Row<Dim>, 9> table{{
+constexpr std::array<Row<Dim>, 10> table{{
     {"box", make_box<Dim>, Frame::own},
     {"sphere", make_sphere<Dim>, Frame::own},
     {"cylinder", make_cylinder<Dim>, Frame::own},
     {"capsule", make_capsule<Dim>, Frame::own},
     {"plane", make_plane<Dim>, Frame::own},
+    {"polygon", make_mesh<Dim>, Frame::world},
     {"mesh", make_mesh<Dim>, Frame::world},
     {"expression", make_expression<Dim>, Frame::own},
     {"level_set", make_level_set<Dim>, Frame::own},

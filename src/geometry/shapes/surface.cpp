@@ -139,7 +139,7 @@ template <int Dim>
 SurfaceMesh shape_surface(const ShapeSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,
                           const Vec<Dim>& upper) {
   const auto field = make_shape<Dim>(spec, options);
-  if (spec.kind == "mesh") return shape::read_shape_mesh<Dim>(spec, {options.cell_size, nullptr});
+  if (spec.has_facets()) return shape::read_shape_mesh<Dim>(spec, {options.cell_size, nullptr});
   if (spec.kind == "height_map") return closed_contour<Dim>(*field, options.cell_size, lower, upper);
   const Nodes<Dim> nodes = cover<Dim>(lower, upper, options.cell_size);
   return contour(sample<Dim>(*field, nodes), nodes);

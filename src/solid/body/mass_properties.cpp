@@ -253,7 +253,7 @@ Moments moments_of(const ShapeSpec& spec, const ShapeOptions& options, const Vec
     make_shape<Dim>(spec, options);  // throws for impossible sizes
     return transformed<Dim>(row.moments(spec), spec.transform);
   }
-  if (spec.kind == "mesh") return surface_moments<Dim>(contact_surface<Dim>(spec, options, lower, upper));
+  if (spec.has_facets()) return surface_moments<Dim>(contact_surface<Dim>(spec, options, lower, upper));
   return field_moments<Dim>(spec, options, lower, upper);
 }
 

@@ -56,7 +56,7 @@ bool is_thinner_than(const Body<Dim>& body, double h, const Vec<Dim>& lower, con
   }
   low = low.cwiseMax(lower), high = high.cwiseMin(upper);
   const Vec<Dim> count = ((high - low) / (h / 4)).array().ceil() + 1;
-  if (count.minCoeff() < 1 || count.prod() > (body.spec().shape.kind == "mesh" ? most_samples_of_mesh : most_samples))
+  if (count.minCoeff() < 1 || count.prod() > (body.spec().shape.has_facets() ? most_samples_of_mesh : most_samples))
     return false;
   for (int n = 0; n < int(count.prod()); ++n) {
     Vec<Dim> x = low;

@@ -144,9 +144,9 @@ SurfaceMesh surface_to_mesh(const SolidSpec& spec, ShapeOptions options, const V
   return surface;
 }
 
-// True if nodes are projected onto the shape. A file's triangles are the shape themselves.
+// True if nodes are projected onto the shape. Given facets are the shape themselves.
 bool is_curved(const ShapeSpec& s) {
-  return s.kind != "box" && s.kind != "mesh";
+  return s.kind != "box" && !s.has_facets();
 }
 
 template <int Dim>

@@ -33,6 +33,7 @@ TEST_CASE("only slips are suggested") {
 TEST_CASE("of names equally near the one that begins alike is suggested") {
   CHECK(suggest("sinn", {"sign", "sin", "sinh"}) == "sin");
   CHECK(suggest("coss", {"cosh", "cos"}) == "cosh");
+  CHECK(suggest("poins", {"point", "points"}) == "points");
 }
 
 }  // namespace suggest_tests

@@ -138,4 +138,31 @@ TEST_CASE("polylines: crossings of very many lines are found soon") {
   CHECK(area(read("gear.txt", text)) == Approx(M_PI * 1.005).epsilon(1e-3));
 }
 
+TEST_CASE("polylines: a polygon of a scene is its outline in either direction, moved and exact") {
+  ShapeSpec spec;
+  spec.kind = "polygon";
+  spec.where = "scene.toml:4";
+  spec.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}};
+  spec.transform.translate = Vec3(2, 0, 0);
+  for (const bool turned : {false, true}) {
+    if (turned) std::reverse(spec.points.begin(), spec.points.end());
+    const auto shape = make_shape<2>(spec, {0.1, nullptr});
+    for (const Vec3& x : {Vec3(0.3, 0.4, 0), Vec3(-0.5, 2, 0), Vec3(0.9, 0.2, 0)})
+      CHECK((*shape)({x[0] + 2, x[1]}) == Approx(exact(x)).epsilon(1e-14));
+    CHECK(area(contact_surface<2>(spec, {0.1, nullptr}, {0, 0}, {4, 4})) == Approx(1));
+  }
+}
+
+TEST_CASE("polylines: a polygon that crosses itself or meets itself in a corner is refused with the scene's line") {
+  ShapeSpec spec;
+  spec.kind = "polygon";
+  spec.where = "scene.toml:4";
+  spec.points = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+  CHECK_THROWS_WITH(make_shape<2>(spec, {0.1, nullptr}),
+                    Contains("scene.toml:4") && Contains("the outline crosses or touches itself"));
+  spec.points = {{0, 0, 0}, {1, 0, 0}, {0.5, 0.5, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}};
+  CHECK_THROWS_WITH(make_shape<2>(spec, {0.1, nullptr}),
+                    Contains("scene.toml:4") && Contains("more than two lines meet"));
+}
+
 }  // namespace polylines_tests

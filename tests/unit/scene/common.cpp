@@ -24,6 +24,7 @@ std::string geometry(int dimension, const std::string& shape) {
     text += "from = " + v("0.2", "0.2", "0.2") + "\nto = " + v("0.8", "0.2", "0.2") + "\nradius = 0.1\n";
   }
   if (shape == "plane") text += "point = " + v("0", "0.5", "0") + "\nnormal = " + v("0", "1", "0") + "\n";
+  if (shape == "polygon") text += "points = [[0.1, 0.1], [0.4, 0.1], [0.3, 0.5]]\n";
   if (shape == "mesh") text += "file = \"s.obj\"\n";
   if (shape == "height_map")
     text += "lower = " + v("0", "0.1", "0") + "\nupper = " + v("1", "0.5", "1") + "\nfile = \"s.png\"\nup = \"-y\"\n";

@@ -64,7 +64,7 @@ std::string scene_for(const Option& option) {
     if (option.path == std::string("probe[].") + key) probe = "line";
   for (const char* key : {"corner", "edge_a", "edge_b", "counts"})
     if (option.path == std::string("probe[].") + key) probe = "plane";
-  std::string text = rich_scene(3, shape, side, probe);
+  std::string text = rich_scene(shape == "polygon" ? 2 : 3, shape, side, probe);
   const std::string pull = "kind = \"acceleration\"";
   if (condition.key == "kind" && option.path.rfind("force[]", 0) == 0)
     text.replace(text.find(pull), pull.size(), "kind = \"" + condition.values[0] + "\"");
