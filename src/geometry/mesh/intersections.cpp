@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "geometry/mesh/box_pairs.h"
 #include "geometry/mesh/exact_orientation.h"
 #include "geometry/mesh/pairs.h"
 
@@ -13,6 +14,8 @@ namespace seiche::mesh {
 namespace {
 
 using Triangle = std::array<int, 3>;
+
+constexpr double most_box_pairs = 100;  // a triangle: even meshes have some 20, fans as many as triangles
 
 // An axis along which the triangle's projection has an area, if possible the one with the largest area; -1: none.
 int view(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -51,10 +54,22 @@ std::array<Vec3, 3> corners(const SurfaceMesh& mesh, const Triangle& t) {
 }
 
 // The triangle's corners, those shared with the other triangle first, and the number of shared corners.
-std::pair<Triangle, int> shared_first(Triangle t, const Triangle& other) {
-  const auto is_shared = [&](int p) { return std::find(other.begin(), other.end(), p) != other.end(); };
-  const auto end = std::stable_partition(t.begin(), t.end(), is_shared);
-  return {t, int(end - t.begin())};
+std::pair<Triangle, int> shared_first(const Triangle& t, const Triangle& other) {
+  Triangle sorted{}, rest{};
+  int shared = 0, others = 0;
+  for (const int p : t)
+    (std::find(other.begin(), other.end(), p) != other.end() ? sorted[shared++] : rest[others++]) = p;
+  std::copy_n(rest.begin(), others, sorted.begin() + shared);
+  return {sorted, shared};
+}
+
+// True if the corners of t from `first` on lie strictly on one side of the plane of s.
+bool is_beside(const std::array<Vec3, 3>& t, int first, const std::array<Vec3, 3>& s) {
+  const int side = orientation(s[0], s[1], s[2], t[first]);
+  if (side == 0) return false;
+  for (int k = first + 1; k < 3; ++k)
+    if (orientation(s[0], s[1], s[2], t[k]) != side) return false;
+  return true;
 }
 
 // True if both triangles lie in one plane and on the same side of their common edge.
@@ -65,10 +80,9 @@ bool folded(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t) {
   return axis >= 0 && orientation(u, v, a, axis) == orientation(u, v, b, axis);
 }
 
-bool any_side_meets(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t) {
-  const auto x = corners(mesh, s), y = corners(mesh, t);
+bool any_side_meets(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t) {
   for (int k = 0; k < 3; ++k)
-    if (segment_meets(x[k], x[(k + 1) % 3], y)) return true;
+    if (segment_meets(s[k], s[(k + 1) % 3], t)) return true;
   return false;
 }
 
@@ -90,6 +104,33 @@ std::vector<int> sliver_points(const SurfaceMesh& mesh) {
   for (std::size_t p = 0; p < group.size(); ++p)
     if (group[p] == 0) group[p] = sets.root(int(p));
   return group;
+}
+
+// The plane of a triangle, by a normal that is not of unit length.
+struct FacetPlane {
+  Vec3 origin, normal;
+  double size = 0;  // product of the lengths of two sides
+};
+
+FacetPlane plane_of(const SurfaceMesh& mesh, const Triangle& t) {
+  const Vec3 &a = mesh.points[t[0]], u = mesh.points[t[1]] - a, v = mesh.points[t[2]] - a;
+  return {a, u.cross(v), u.norm() * v.norm()};
+}
+
+// True if the corners that `other` does not share with t lie on one side of its plane beyond doubt, so that the two do
+// not intersect. False for one triangle.
+bool is_clear_of(const FacetPlane& plane, const SurfaceMesh& mesh, const Triangle& t, const Triangle& other) {
+  constexpr double rounding = 1e-14;  // some forty units in the last place: those of normal and product, with room
+  int above = 0, below = 0, apart = 0;
+  for (const int p : other) {
+    if (p == t[0] || p == t[1] || p == t[2]) continue;
+    const Vec3 x = mesh.points[p] - plane.origin;
+    const double height = plane.normal.dot(x), doubt = rounding * plane.size * x.lpNorm<1>();
+    ++apart;
+    above += height > doubt;
+    below += height < -doubt;
+  }
+  return apart > 0 && (above == apart || below == apart);
 }
 
 bool share_sliver(const std::vector<int>& group, const Triangle& s, const Triangle& t) {
@@ -151,20 +192,33 @@ bool intersect(const SurfaceMesh& mesh, const Triangle& one, const Triangle& two
   const Triangle t = shared_first(two, one).first;
   if (shared == 3) return true;
   if (shared == 2) return folded(mesh, s, t);
-  if (shared == 0) return any_side_meets(mesh, s, t) || any_side_meets(mesh, t, s);
   const auto x = corners(mesh, s), y = corners(mesh, t);
+  if (is_beside(y, shared, x) || is_beside(x, shared, y)) return false;
+  if (shared == 0) return any_side_meets(x, y) || any_side_meets(y, x);
   return segment_meets(x[1], x[2], y) || segment_meets(y[1], y[2], x);
 }
 
 std::vector<std::array<int, 2>> self_intersections(const SurfaceMesh& mesh) {
   std::vector<char> counts;
+  counts.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) counts.push_back(has_area(mesh, t));
   const std::vector<int> group = sliver_points(mesh);
+  std::vector<FacetPlane> planes;
+  planes.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) planes.push_back(plane_of(mesh, t));
   std::vector<std::array<int, 2>> found;
-  for (const auto& [s, t] : candidates(mesh)) {
+  const auto look_at = [&](int s, int t) {
     const Triangle &one = mesh.triangles[s], &two = mesh.triangles[t];
-    if (counts[s] && counts[t] && !share_sliver(group, one, two) && intersect(mesh, one, two)) found.push_back({s, t});
+    if (is_clear_of(planes[s], mesh, one, two) || is_clear_of(planes[t], mesh, two, one)) return;
+    if (counts[s] && counts[t] && !share_sliver(group, one, two) && intersect(mesh, one, two))
+      found.push_back({std::min(s, t), std::max(s, t)});
+  };
+  if (TriangleBoxes(mesh).visit_pairs(most_box_pairs * double(mesh.triangles.size()), look_at)) {
+    std::sort(found.begin(), found.end());
+    return found;
   }
+  found.clear();
+  for (const auto& [s, t] : candidates(mesh)) look_at(s, t);
   return found;
 }
 

@@ -47,6 +47,14 @@ Vec3 hermite(const Vec3& a, const Vec3& p, const Vec3& b, const Vec3& q, double 
 
 }  // namespace
 
+std::vector<Vec3> MeshPassage::at(double share) const {
+  std::vector<Vec3> points;
+  points.reserve(from_.size());
+  for (std::size_t p = 0; p < from_.size(); ++p)
+    points.push_back(hermite(from_[p], slopes_[p], to_[p], next_slopes_[p], share));
+  return points;
+}
+
 MeshSequence::MeshSequence(int dimension, const ShapeSpec& shape, const SequenceSpec& spec, const ShapeOptions& options)
     : rate_(spec.rate), start_(spec.start), loops_(spec.loop) {
   ShapeSpec one = shape;
@@ -76,26 +84,29 @@ int MeshSequence::index(int k) const {
   return at < n ? at : period - at;
 }
 
-// Slope per mesh of the cubic spline through the points: 3 sum_j -(-a)^j (x_k+j - x_k-j), a = 2 - sqrt(3).
-Vec3 MeshSequence::slope(int k, std::size_t point) const {
+// Slopes per mesh of the cubic splines through the points: 3 sum_j -(-a)^j (x_k+j - x_k-j), a = 2 - sqrt(3).
+std::vector<Vec3> MeshSequence::slopes_at(int k) const {
   constexpr int reach = 24;  // a^24 = 2e-14
   const double a = 2 - std::sqrt(3.0);
-  Vec3 sum = Vec3::Zero();
+  std::vector<Vec3> slopes(first_.points.size(), Vec3::Zero());
   double weight = 3 * a;
-  for (int j = 1; j <= reach; ++j, weight *= -a)
-    sum += weight * (points_[std::size_t(index(k + j))][point] - points_[std::size_t(index(k - j))][point]);
-  return sum;
+  for (int j = 1; j <= reach; ++j, weight *= -a) {
+    const auto &later = points_[std::size_t(index(k + j))], &earlier = points_[std::size_t(index(k - j))];
+    for (std::size_t p = 0; p < slopes.size(); ++p) slopes[p] += weight * (later[p] - earlier[p]);
+  }
+  return slopes;
+}
+
+MeshPassage MeshSequence::passage_after(int mesh) const {
+  return {points_[std::size_t(index(mesh))], slopes_at(mesh), points_[std::size_t(index(mesh + 1))],
+          slopes_at(mesh + 1)};
 }
 
 std::vector<Vec3> MeshSequence::points_at(double t) const {
   double s = (t - start_) * rate_;
   s = loops_ ? std::fmod(s, count()) : std::clamp(s, 0.0, double(count() - 1));
   const int k = int(std::floor(s));
-  const auto &a = points_[std::size_t(index(k))], &b = points_[std::size_t(index(k + 1))];
-  std::vector<Vec3> points;
-  points.reserve(a.size());
-  for (std::size_t p = 0; p < a.size(); ++p) points.push_back(hermite(a[p], slope(k, p), b[p], slope(k + 1, p), s - k));
-  return points;
+  return passage_after(k).at(s - k);
 }
 
 }  // namespace seiche

@@ -10,6 +10,20 @@ namespace seiche {
 
 struct SequenceSpec;
 
+// The way of the points from one mesh to the next, a cubic in time.
+class MeshPassage {
+ public:
+  MeshPassage(const std::vector<Vec3>& from, std::vector<Vec3> slopes, const std::vector<Vec3>& to,
+              std::vector<Vec3> next_slopes)
+      : from_(from), to_(to), slopes_(std::move(slopes)), next_slopes_(std::move(next_slopes)) {}
+  // Places at a share of the way, 0 to 1.
+  std::vector<Vec3> at(double share) const;
+
+ private:
+  const std::vector<Vec3>&from_, &to_;
+  std::vector<Vec3> slopes_, next_slopes_;  // m a mesh
+};
+
 class MeshSequence {
  public:
   // Reads and checks all meshes, transformed as the shape. Throws Error(bad_input) naming shape.where and the file:
@@ -26,10 +40,12 @@ class MeshSequence {
   // Places of the points at time t, m: a cubic spline in time through the meshes, so velocities and accelerations have
   // no jumps. Without a loop the points rest before the first mesh and after the last.
   std::vector<Vec3> points_at(double t) const;
+  // Between a mesh and the next one. The sequence must outlive it.
+  MeshPassage passage_after(int mesh) const;
 
  private:
   int index(int k) const;
-  Vec3 slope(int k, std::size_t point) const;
+  std::vector<Vec3> slopes_at(int k) const;
 
   SurfaceMesh first_;
   std::vector<std::vector<Vec3>> points_;  // of each mesh, m

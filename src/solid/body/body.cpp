@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/numbered_files.h"
 #include "geometry/shapes/closed_surface.h"
+#include "geometry/shapes/mesh_shape.h"
 #include "solid/body/deforming.h"
 #include "solid/body/thin_surface.h"
 #include "solid/body/thinness.h"
@@ -122,18 +123,16 @@ void Body<Dim>::make_deforming(const ShapeOptions& options, const Vec<Dim>& lowe
   surface_ = elastic_->surface.facets;
   mass_.center = reference_ = mass_of_surface<Dim>(surface_, 1).center;
   const SurfaceMesh first = surface_;
-  ShapeSpec shape = spec_.shape;
-  double t = spec_.sequence.start;
-  for (const std::filesystem::path& file : numbered_files(spec_.shape.file, spec_.sequence.meshes)) {
-    shape.file = file;
-    shape_ = make_shape<Dim>(shape, {options.cell_size, nullptr});
-    surface_.points = elastic_->sequence->points_at(t);
-    t += 1 / spec_.sequence.rate;
+  const MeshSequence& sequence = *elastic_->sequence;
+  for (int mesh = 0; mesh < sequence.count(); ++mesh) {
+    surface_.points = sequence.points_of(mesh);
+    shape_ = make_mesh_shape<Dim>(surface_, options.cell_size);
     if (is_thinner_than(*this, options.cell_size, lower, upper))
       throw Error(ExitCode::bad_input,
                   fmt::format("{}: solid '{}' is thinner than a cell of {:g} m in {}, where a deforming solid cannot "
                               "be seen; give its meshes thickness, or take smaller cells",
-                              spec_.shape.where, spec_.name, options.cell_size, file.string()));
+                              spec_.shape.where, spec_.name, options.cell_size,
+                              numbered_files(spec_.shape.file, spec_.sequence.meshes)[std::size_t(mesh)].string()));
   }
   surface_ = first;
   shape_.reset();

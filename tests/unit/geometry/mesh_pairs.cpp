@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "geometry/mesh/box_pairs.h"
 #include "geometry/mesh/intersections.h"
 #include "geometry/mesh/pairs.h"
 #include "unit/geometry/mesh_files.h"
@@ -77,6 +78,24 @@ TEST_CASE("triangles thrown at random, long and short, are found out as by tryin
   const auto found = mesh::self_intersections(mesh);
   CHECK(found.size() > 20);
   CHECK(found == all_intersections(mesh));
+}
+
+TEST_CASE("each pair of triangles whose boxes overlap is visited once, up to a number") {
+  const SurfaceMesh mesh = sphere(Vec3(0.1, 0.2, 0.3), 0.7, 3);
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const auto& triangle : mesh.triangles) {
+    boxes.emplace_back();
+    for (const int p : triangle) boxes.back().extend(mesh.points[std::size_t(p)]);
+  }
+  std::vector<std::array<int, 2>> expected, visited;
+  for (int s = 0; s < int(boxes.size()); ++s)
+    for (int t = s + 1; t < int(boxes.size()); ++t)
+      if (boxes[std::size_t(s)].intersects(boxes[std::size_t(t)])) expected.push_back({s, t});
+  const auto visit = [&](int s, int t) { visited.push_back({std::min(s, t), std::max(s, t)}); };
+  CHECK(mesh::TriangleBoxes(mesh).visit_pairs(double(expected.size()), visit));
+  std::sort(visited.begin(), visited.end());
+  CHECK(visited == expected);
+  CHECK(!mesh::TriangleBoxes(mesh).visit_pairs(double(expected.size()) - 1, visit));
 }
 
 }  // namespace mesh_pairs_tests
