@@ -42,10 +42,4 @@ std::vector<int> list_frames(const std::filesystem::path& frames);
 // without their outside.
 void clip_to_containers(LoadedFrame& frame, const std::vector<SolidSpec>& solids);
 
-// Replaces the surfaces of static and prescribed solids of a frame, which the run sampled on its grid, by those of the
-// scene's shapes. 2D: exact for boxes, planes and meshes, polygons of up to 256 corners for round shapes; formulas and
-// level sets are contoured up to eight times finer. 3D: these alone, up to four times finer. Solids whose shape is not
-// where the frame has them, as after a change of the scene, or cannot be read, keep the frame's surface.
-void refine_surfaces(LoadedFrame& frame, const std::vector<SolidSpec>& solids);
-
 }  // namespace seiche::render

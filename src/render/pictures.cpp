@@ -74,7 +74,7 @@ std::vector<Shot> shots_of(const Job& job) {
   return shots;
 }
 
-Studio::Studio(const Job& job) : job_(job) {
+Studio::Studio(const Job& job) : job_(job), refiner_(job.scene.solids) {
   const RenderOptions& o = job.options;
   if (o.camera_path.empty()) return;
   path_ = read_camera_path(o.camera_path, o.camera_steps == "linear" ? CurveForm::linear : CurveForm::smooth);
@@ -105,7 +105,7 @@ Plot Studio::plot_of_frame() {
           "the frames have neither a surface nor the field given by --color; render other frames or another --color");
     std::fill(frame.phi->values.begin(), frame.phi->values.end(), -frame.phi->h);
   }
-  refine_surfaces(frame, job_.scene.solids);
+  refiner_.refine(frame);
   Plot plot;
   plot.domain = frame.domain;
   plot.phi = *frame.phi;
@@ -134,7 +134,7 @@ Studio::Result Studio::draw_flat(const std::filesystem::path& file) {
 
 void Studio::set_stage() {
   LoadedFrame& frame = *frame_;
-  refine_surfaces(frame, job_.scene.solids);
+  refiner_.refine(frame);
   clip_to_containers(frame, job_.scene.solids);
   stage_ = Stage{};
   stage_.domain = frame.domain;

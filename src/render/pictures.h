@@ -6,6 +6,7 @@
 #include "render/job.h"
 #include "render/plot.h"
 #include "render/stage.h"
+#include "render/surface_refiner.h"
 
 namespace seiche::render {
 
@@ -39,6 +40,7 @@ class Studio {
   void set_stage();
 
   const Job& job_;
+  SurfaceRefiner refiner_;
   std::optional<LoadedFrame> frame_;
   Stage stage_;
   CameraPath path_;

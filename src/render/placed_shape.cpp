@@ -1,148 +1,19 @@
 #include "render/placed_shape.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "base/expression.h"
 #include "base/solid_spec.h"
-#include "geometry/mesh/facets.h"
-#include "geometry/shapes/closed_surface.h"
-#include "render/frame.h"
 
 namespace seiche::render {
-namespace {
-
-template <int Dim>
-constexpr double finer = Dim == 2 ? 8 : 4;  // cells of the contours of formulas, in one of the frame
-constexpr double most_samples = 1.0e6;      // of a contour
-
-template <int Dim>
-std::vector<std::array<int, Dim>>& facets_in(SurfaceMesh& mesh) {
-  if constexpr (Dim == 2)
-    return mesh.segments;
-  else
-    return mesh.triangles;
-}
-
-template <int Dim>
-struct RestBox {
-  Vec<Dim> lower, upper;
-};
-
-// Calls visit(facet) for each facet of a solid that the frame has.
-template <int Dim, class Visit>
-void visit_facets(const SolidMesh& solids, int solid, const Visit& visit) {
-  const auto& facets = facets_of<Dim>(solids.mesh);
-  for (std::size_t i = 0; i < facets.size() && i < solids.solid.size(); ++i)
-    if (solids.solid[i] == solid) visit(facets[i]);
-}
-
-// Box in the rest pose around the part of a solid that the frame shows.
-template <int Dim>
-RestBox<Dim> box_at_rest(const LoadedFrame& frame, int solid, const PlacedShape<Dim>& shape) {
-  std::vector<Vec3> points;
-  bool corner_inside = false;
-  for (int c = 0; c < 1 << Dim; ++c) {
-    Vec3 corner = Vec3::Zero();
-    for (int a = 0; a < Dim; ++a) corner[a] = ((c >> a) & 1 ? frame.domain.upper : frame.domain.lower)[a];
-    points.push_back(corner);
-    corner_inside = corner_inside || shape(corner) < 0;
-  }
-  if (!corner_inside) points.clear();
-  visit_facets<Dim>(frame.solids, solid,
-                    [&](const auto& facet) { points.push_back(frame.solids.mesh.points[std::size_t(facet[0])]); });
-  RestBox<Dim> box{Vec<Dim>::Constant(1e300), Vec<Dim>::Constant(-1e300)};
-  for (const Vec3& point : points) {
-    const Vec<Dim> rest = truncate<Dim>(shape.to_rest(point));
-    box.lower = box.lower.cwiseMin(rest), box.upper = box.upper.cwiseMax(rest);
-  }
-  return box;
-}
-
-// The box with room for edges that the frame's cells cut off. What stands still ends beyond the domain as in the frame.
-template <int Dim>
-RestBox<Dim> with_room(RestBox<Dim> box, const LoadedFrame& frame, bool stands, double h) {
-  constexpr double room = 2, beyond = 1.5;  // cells; contact_surface() goes a little further
-  box.lower.array() -= room * h, box.upper.array() += room * h;
-  for (int a = 0; a < Dim && stands; ++a) {
-    box.lower[a] = std::max(box.lower[a], frame.domain.lower[a] - beyond * h);
-    box.upper[a] = std::min(box.upper[a], frame.domain.upper[a] + beyond * h);
-  }
-  return box;
-}
-
-// The surface at rest within a box; closed, facing outwards. h: m, of a cell of the frame. Empty if it would be no
-// finer than that.
-template <int Dim>
-SurfaceMesh surface_at_rest(const ShapeSpec& spec, const RestBox<Dim>& box, double h) {
-  const Vec<Dim> size = box.upper - box.lower;
-  const double spacing = std::max(h / finer<Dim>, std::pow(size.prod() / most_samples, 1.0 / Dim));
-  if (Dim == 3 && spacing > 0.7 * h) return {};
-  return contact_surface<Dim>(spec, {spacing, nullptr}, box.lower, box.upper);
-}
-
-template <int Dim>
-bool agrees(const PlacedShape<Dim>& shape, const SolidMesh& solids, int solid, double h) {
-  bool all = true;
-  visit_facets<Dim>(solids, solid, [&](const auto& facet) {
-    for (const int point : facet) all = all && std::abs(shape(solids.mesh.points[std::size_t(point)])) < h;
-  });
-  return all;
-}
-
-bool has_facets(const SolidMesh& solids, int solid) {
-  return std::find(solids.solid.begin(), solids.solid.end(), solid) != solids.solid.end();
-}
-
-// The frame's solids without the facets of one.
-template <int Dim>
-void remove_solid(SolidMesh& solids, int solid) {
-  SolidMesh kept;
-  kept.mesh.points = solids.mesh.points;
-  const auto& facets = facets_of<Dim>(solids.mesh);
-  for (std::size_t i = 0; i < facets.size() && i < solids.solid.size(); ++i) {
-    if (solids.solid[i] == solid) continue;
-    facets_in<Dim>(kept.mesh).push_back(facets[i]);
-    kept.solid.push_back(solids.solid[i]);
-  }
-  solids = std::move(kept);
-}
-
-template <int Dim>
-void add_surface(SolidMesh& solids, int solid, const SurfaceMesh& surface, const PlacedShape<Dim>& shape) {
-  const int first = int(solids.mesh.points.size());
-  for (const Vec3& point : surface.points) solids.mesh.points.push_back(shape.place(point));
-  for (std::array<int, Dim> facet : facets_of<Dim>(surface)) {
-    for (int& point : facet) point += first;
-    facets_in<Dim>(solids.mesh).push_back(facet);
-    solids.solid.push_back(solid);
-  }
-}
-
-template <int Dim>
-void refine_surface(LoadedFrame& frame, const SolidSpec& solid, int n, double h) {
-  const PlacedShape<Dim> shape(solid, h / finer<Dim>, frame.time);
-  if (!agrees<Dim>(shape, frame.solids, n, h)) return;
-  const RestBox<Dim> box = with_room<Dim>(box_at_rest<Dim>(frame, n, shape), frame, !solid.kind.is_prescribed(), h);
-  const SurfaceMesh surface = surface_at_rest<Dim>(solid.shape, box, h);
-  if (surface.points.empty()) return;
-  remove_solid<Dim>(frame.solids, n);
-  add_surface<Dim>(frame.solids, n, surface, shape);
-}
-
-// True if the scene tells the surface of a solid better than the frame. In 3D that is so of formulas and level sets.
-bool is_refinable(const SolidSpec& solid, int dimension) {
-  const std::string& kind = solid.shape.kind;
-  const bool is_sampled = kind == "expression" || kind == "level_set";
-  return !solid.kind.is_free() && !solid.kind.follows_meshes && (dimension == 2 || (is_sampled && !solid.shape.invert));
-}
-
-}  // namespace
 
 template <int Dim>
 PlacedShape<Dim>::PlacedShape(const SolidSpec& solid, double cell_size, double time)
-    : center_(solid.motion.center), shape_(make_shape<Dim>(solid.shape, {cell_size, nullptr})) {
+    : PlacedShape(solid, make_shape<Dim>(solid.shape, {cell_size, nullptr}), time) {}
+
+template <int Dim>
+PlacedShape<Dim>::PlacedShape(const SolidSpec& solid, std::shared_ptr<const ShapeField<Dim>> shape, double time)
+    : center_(solid.motion.center), shape_(std::move(shape)) {
   if (!solid.kind.is_prescribed()) return;
   translate_ = VectorExpression(solid.motion.translate)(Vec3::Zero(), time);
   const double degrees = Expression(solid.motion.degrees)(Vec3::Zero(), time);
@@ -156,17 +27,5 @@ double PlacedShape<Dim>::operator()(const Vec3& x) const {
 
 template class PlacedShape<2>;
 template class PlacedShape<3>;
-
-void refine_surfaces(LoadedFrame& frame, const std::vector<SolidSpec>& solids) {
-  const double h = frame.phi ? frame.phi->h : frame.quantity ? frame.quantity->h : 0;
-  for (std::size_t n = 0; n < solids.size() && h > 0; ++n) {
-    if (!is_refinable(solids[n], frame.dimension) || !has_facets(frame.solids, int(n))) continue;
-    try {
-      frame.dimension == 2 ? refine_surface<2>(frame, solids[n], int(n), h)
-                           : refine_surface<3>(frame, solids[n], int(n), h);
-    } catch (const Error&) {  // such as a file of the shape that is gone: the frame's surface stays
-    }
-  }
-}
 
 }  // namespace seiche::render

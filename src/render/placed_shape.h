@@ -15,6 +15,8 @@ class PlacedShape {
  public:
   // `cell_size`: resolution of sampled shapes, m. Throws Error(bad_input) for shapes or motions that cannot be read.
   PlacedShape(const SolidSpec& solid, double cell_size, double time);
+  // With the shape at rest.
+  PlacedShape(const SolidSpec& solid, std::shared_ptr<const ShapeField<Dim>> shape, double time);
 
   // Signed distance at x (m), negative inside.
   double operator()(const Vec3& x) const;
@@ -26,7 +28,7 @@ class PlacedShape {
  private:
   Vec3 center_, translate_ = Vec3::Zero();
   Eigen::Matrix3d back_ = Eigen::Matrix3d::Identity();
-  std::unique_ptr<ShapeField<Dim>> shape_;
+  std::shared_ptr<const ShapeField<Dim>> shape_;
 };
 
 }  // namespace seiche::render

@@ -11,8 +11,8 @@
 #include "render/foam.h"
 #include "render/job.h"
 #include "render/liquid_look.h"
-#include "render/placed_shape.h"
 #include "render/streamlines.h"
+#include "render/surface_refiner.h"
 #include "unit/render/common.h"
 
 namespace fields_tests {
@@ -242,7 +242,9 @@ TEST_CASE("outlines of static and prescribed solids become those of the scene's 
     return solids;
   };
   frame.solids = sampled(0);
-  refine_surfaces(frame, {box});
+  const std::vector<SolidSpec> scene{box};
+  SurfaceRefiner refiner(scene);
+  refiner.refine(frame);
   std::vector<Vec3> corners;
   for (const auto& segment : frame.solids.mesh.segments) corners.push_back(frame.solids.mesh.points[segment[0]]);
   REQUIRE(corners.size() == 4);
@@ -251,8 +253,39 @@ TEST_CASE("outlines of static and prescribed solids become those of the scene's 
     CHECK(std::any_of(corners.begin(), corners.end(), is_it));
   }
   frame.solids = sampled(0.3);  // elsewhere than the scene has it: the frame is right
-  refine_surfaces(frame, {box});
+  refiner.refine(frame);
   CHECK(frame.solids.mesh.points[0] == Vec3(0.62, 0.23, 0));
+}
+
+TEST_CASE("the contour of a formula moves with its solid from frame to frame and is not made again") {
+  SolidSpec disc;
+  disc.shape.kind = "expression";
+  disc.shape.phi = "(x-0.3)^2 + (y-0.5)^2 - 0.15^2";
+  disc.kind = SolidKind::kinematic;
+  disc.motion.translate = {"0.137*t", "0", "0"};
+  const std::vector<SolidSpec> scene{disc};
+  SurfaceRefiner refiner(scene);
+  const auto surface_at = [&](double time, double turn) {
+    LoadedFrame frame;
+    frame.dimension = 2;
+    frame.time = time;
+    frame.domain = {Vec3f::Zero(), Vec3f(1, 1, 0.1f)};
+    frame.phi = ScalarVolume{{10, 10, 1}, {0, 0, 0}, 0.1f, std::vector<float>(100, 0.3f)};
+    for (int n = 0; n < 8; ++n) {  // facets of the frame lie elsewhere on the circle each time
+      const double angle = turn + 2 * M_PI * n / 8;
+      frame.solids.mesh.points.emplace_back(0.3 + 0.137 * time + 0.15 * std::cos(angle), 0.5 + 0.15 * std::sin(angle),
+                                            0);
+      frame.solids.mesh.segments.push_back({n, (n + 1) % 8});
+      frame.solids.solid.push_back(0);
+    }
+    refiner.refine(frame);
+    return frame.solids.mesh;
+  };
+  const SurfaceMesh first = surface_at(0, 0), later = surface_at(1, 0.3);
+  REQUIRE(first.segments.size() > 16);
+  REQUIRE(later.points.size() == first.points.size());
+  for (std::size_t p = 8; p < first.points.size(); ++p)
+    CHECK((later.points[p] - first.points[p] - Vec3(0.137, 0, 0)).norm() < 1e-12);
 }
 
 }  // namespace fields_tests
