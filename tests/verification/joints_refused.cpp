@@ -65,6 +65,25 @@ TEST_CASE("joints: a body that leaves the domain on a joint is named with it", "
   CHECK(sim->solids()[0].position[0] > 0.6);
 }
 
+TEST_CASE("joints: a body that is outside at the start is refused with the joint's line", "[joints]") {
+  for (const int dim : {2, 3}) {
+    Scene s = test::swing_scene(dim, 0.5, 0.05, 0);
+    s.domain.sides[0][1].type = SideType::outflow;
+    s.solids = {test::rigid_box("box", {0.1, 0.1, dim == 3 ? 0.1 : 0}, {0.8, 0, 0}, 500)};
+    s.joints = {joint("turn", JointKind::slider, "box", "world", {0.8, 0, 0})};
+    s.joints[0].axis = Vec3(1, 0, 0);
+    s.joints[0].where = "scene.toml:31";
+    try {
+      (void)make_simulation(s, Communicator());
+      FAIL("the scene was taken");
+    } catch (const Error& error) {
+      CHECK(error.code() == ExitCode::bad_input);
+      CHECK_THAT(error.what(),
+                 Contains("scene.toml:31: joint 'turn' holds solid 'box', which lies outside of the domain"));
+    }
+  }
+}
+
 TEST_CASE("joints: one that is far from its body is told", "[joints]") {
   for (const double at : {1.0, 3.0}) {
     Scene s = one_box("0");

@@ -10,4 +10,8 @@ namespace seiche {
 template <int Dim>
 void refuse_leaving(const JointSet<Dim>& joints, const Domain<Dim>& domain, const State<Dim>& state);
 
+// Throws Error(bad_input) with the line of the joint where that is so at the start.
+template <int Dim>
+void refuse_outside_at_start(const JointSet<Dim>& joints, const Domain<Dim>& domain, const State<Dim>& state);
+
 }  // namespace seiche

@@ -8,6 +8,7 @@
 #include "coupling/exterior/exteriors.h"
 #include "coupling/report/measures.h"
 #include "coupling/solids/contact_setup.h"
+#include "coupling/solids/joint_leaving.h"
 #include "coupling/solids/prescribed_loads.h"
 #include "coupling/solids/solid_kinds.h"
 #include "coupling/state/contact_pairs.h"
@@ -256,6 +257,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
     state.joints.back().q = state.joints.back().shown_q = joint.q_at_start;
   }
   refuse_overlaps(s.domain, s.solids, s.scene->domain, state);
+  refuse_outside_at_start(s.solids.joints, s.domain, state);
   const StepGeometry<Dim> g = s.solids.geometry.measure(place_moving_bodies(state), 0);
   state.phi = initial_surface(s.domain, s.fluids, s.solids, g, shapes);
   if (has_thin_elastic(s.solids))
