@@ -2,21 +2,15 @@
 #include <catch2/catch.hpp>
 
 #include "base/joint_spec.h"
-#include "rigid_scenes.h"
+#include "restitution_scenes.h"
 
 namespace restitution_tests {
 using namespace seiche;
+using test::set_restitution;
 
 namespace {
 
 constexpr double g = 9.81;
-
-void set_restitution(Scene& s, double e, const std::vector<std::string>& between = {"*", "domain"}) {
-  ContactSpec contact;
-  contact.between = between;
-  contact.restitution = e;
-  s.contacts.push_back(contact);
-}
 
 // A ball that falls by a metre onto the floor, dry.
 Scene falling_ball(int dim, double e) {
@@ -286,6 +280,24 @@ TEST_CASE("impacts apart from each other do not change each other", "[restitutio
   while (sim->time() < 0.4) (void)sim->step(0.4);
   CHECK(sim->solids()[0].angular_velocity[2] == Approx(-0.5).epsilon(0.03));
   CHECK(sim->solids()[2].velocity[0] == Approx(0.5).epsilon(1e-3));
+}
+
+// A bat that speeds up has 2.24 m/s where it meets the ball. Contact takes some steps, in which it gets 0.2 m/s faster
+// each. Measured: they part at 0.96 of the speed at which they met.
+TEST_CASE("a bat that speeds up and a ball part at the speed at which they met", "[restitution]") {
+  for (const int dim : {2, 3}) {
+    Scene s = ball_and_bat(dim);
+    s.solids[1].motion.translate = {"25*t^2", "0", "0"};
+    const auto sim = make_simulation(s, Communicator());
+    double parting = 0;
+    while (sim->time() < 0.1) {
+      (void)sim->step(0.1);
+      parting = std::max(parting, sim->solids()[0].velocity[0] - sim->solids()[1].velocity[0]);
+    }
+    const double met = std::sqrt(2 * 50 * 0.05);
+    WARN(dim << "D: they met at " << met << " m/s and part at " << parting << " m/s");
+    CHECK(parting == Approx(met).epsilon(0.06));
+  }
 }
 
 TEST_CASE("a stack of boxes with restitution comes to rest", "[restitution]") {

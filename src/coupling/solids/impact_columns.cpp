@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/disjoint_sets.h"
+#include "coupling/solids/joint_motion.h"
 #include "coupling/solids/rigid_coupling.h"
 #include "linalg/core/dense_factors.h"
 #include "solid/rigid/state.h"
@@ -17,10 +19,27 @@ Twist prescribed_motion(const State<Dim>& state, int k, double horizon) {
   return state.solids[std::size_t(k)].place(t, t + horizon, t + horizon).twist;
 }
 
+// The smallest block that each block is linked to by rows of C.
+template <int Dim>
+std::vector<int> linked_blocks(const SolidCoupling<Dim>& coupling) {
+  DisjointSets sets(coupling.bodies.size());
+  std::vector<int> seen(std::size_t(coupling.J.constraints.rows()), -1);  // by row: a block in it
+  for (std::size_t b = 0; b < coupling.bodies.size(); ++b)
+    for (int i = coupling.first[b]; i < coupling.first[b + 1]; ++i)
+      for (SparseMatrix::InnerIterator entry(coupling.J.constraints, i); entry; ++entry) {
+        int& other = seen[std::size_t(entry.row())];
+        if (other < 0) other = int(b);
+        sets.join(other, int(b));
+      }
+  std::vector<int> group(coupling.bodies.size());
+  for (std::size_t b = 0; b < group.size(); ++b) group[b] = sets.root(int(b));
+  return group;
+}
+
 }  // namespace
 
-double ImpactColumn::parting(const Eigen::VectorXd& v) const {
-  double speed = prescribed;
+double ImpactColumn::dot(const Eigen::VectorXd& v) const {
+  double speed = 0;
   for (std::size_t s : {0, 1})
     if (first_unknown[s] >= 0) speed += part[s].dot(v.segment(first_unknown[s], part[s].size()));
   return speed;
@@ -32,15 +51,45 @@ void ImpactColumn::add_to(Eigen::VectorXd& push, double impulse) const {
 }
 
 template <int Dim>
+std::shared_ptr<const BodyMatrix> jointed_inertia(const SolidCoupling<Dim>& coupling, const Communicator& ranks) {
+  if (!coupling.is_constrained()) return nullptr;
+  if (coupling.joints->inertia) return coupling.joints->inertia;
+  SparseMatrix M = coupling.mass;
+  M.prune(
+      [&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!coupling.is_held(i) && !coupling.is_held(j)); });
+  auto jointed = std::make_shared<BodyMatrix>(ranks);
+  return jointed->set(std::move(M), coupling.J.constraints) ? jointed : nullptr;
+}
+
+template <int Dim>
+ImpactColumns<Dim>::ImpactColumns(const State<Dim>& state, const SolidCoupling<Dim>& coupling,
+                                  std::shared_ptr<const BodyMatrix> jointed, double horizon)
+    : state_(state), coupling_(coupling), jointed_(std::move(jointed)), horizon_(horizon) {
+  if (coupling.is_constrained()) group_ = linked_blocks(coupling);
+}
+
+template <int Dim>
+bool ImpactColumns<Dim>::moves_with(int a, int b) const {
+  if (!center(a) || !center(b)) return false;
+  return a == b || (!group_.empty() && group_[std::size_t(block(a))] == group_[std::size_t(block(b))]);
+}
+
+template <int Dim>
 std::optional<Vec3> ImpactColumns<Dim>::center(int k) const {
   const RigidState* rigid = k < 0 ? nullptr : state_.solids[std::size_t(k)].rigid();
   return rigid ? std::optional(rigid->center) : std::nullopt;
 }
 
 template <int Dim>
+int ImpactColumns<Dim>::block(int k) const {
+  const auto found = std::find(coupling_.bodies.begin(), coupling_.bodies.end(), k);
+  return k < 0 || found == coupling_.bodies.end() ? -1 : int(found - coupling_.bodies.begin());
+}
+
+template <int Dim>
 int ImpactColumns<Dim>::first_unknown(int k) const {
-  const auto block = std::find(coupling_.bodies.begin(), coupling_.bodies.end(), k);
-  return k < 0 || block == coupling_.bodies.end() ? -1 : coupling_.first[std::size_t(block - coupling_.bodies.begin())];
+  const int b = block(k);
+  return b < 0 ? -1 : coupling_.first[std::size_t(b)];
 }
 
 // Two free solids may have slipped since contact acted: at the middle of both places, moments balance.
@@ -83,23 +132,19 @@ ImpactColumn ImpactColumns<Dim>::column(int first, int second, const std::vector
   return c;
 }
 
+// Joints push back: with them M^-1 - M^-1 C'(C M^-1 C')^+ C M^-1 stands for M^-1.
 template <int Dim>
-double ImpactColumns<Dim>::dot(const ImpactColumn& a, const ImpactColumn& b) {
-  double sum = 0;
-  for (std::size_t s : {0, 1})
-    for (std::size_t r : {0, 1})
-      if (a.first_unknown[s] >= 0 && a.first_unknown[s] == b.first_unknown[r]) sum += a.part[s].dot(b.part[r]);
-  return sum;
-}
-
-template <int Dim>
-ImpactColumn ImpactColumns<Dim>::over_mass(ImpactColumn column) const {
+Eigen::VectorXd ImpactColumns<Dim>::response(const ImpactColumn& column) const {
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(coupling_.size());
+  column.add_to(v, 1);
+  if (jointed_) return jointed_->solve(v);
   for (std::size_t s : {0, 1}) {
     const int first = column.first_unknown[s], n = twist_size<Dim>;
     if (first < 0) continue;
-    column.part[s] = DenseLdlt(Eigen::MatrixXd(coupling_.mass.block(first, first, n, n))).solve(column.part[s]);
+    v.segment(first, n) = DenseLdlt(Eigen::MatrixXd(coupling_.mass.block(first, first, n, n)))
+                              .solve(Eigen::VectorXd(v.segment(first, n)));
   }
-  return column;
+  return v;
 }
 
 template <int Dim>
@@ -107,8 +152,8 @@ Eigen::MatrixXd ImpactColumns<Dim>::products(const std::vector<ImpactColumn>& co
   const auto n = Eigen::Index(columns.size());
   Eigen::MatrixXd A(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const ImpactColumn over = over_mass(columns[std::size_t(i)]);
-    for (Eigen::Index j = 0; j <= i; ++j) A(i, j) = A(j, i) = dot(columns[std::size_t(j)], over);
+    const Eigen::VectorXd v = response(columns[std::size_t(i)]);
+    for (Eigen::Index j = 0; j <= i; ++j) A(i, j) = A(j, i) = columns[std::size_t(j)].dot(v);
   }
   return A;
 }
@@ -121,7 +166,10 @@ Vec3 ImpactColumns<Dim>::change_at(const ImpactColumn& column, int side, const E
   return unstacked<Dim>(own, 0, Vec3::Zero()).at(column.arm[std::size_t(side)]);
 }
 
-template class ImpactColumns<2>;
-template class ImpactColumns<3>;
+#define SEICHE_INSTANTIATE(D)                                                                                  \
+  template std::shared_ptr<const BodyMatrix> jointed_inertia<D>(const SolidCoupling<D>&, const Communicator&); \
+  template class ImpactColumns<D>;
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
 
 }  // namespace seiche

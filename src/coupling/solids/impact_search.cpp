@@ -19,6 +19,9 @@ constexpr double steps_of_forces = 2, share_of_fall = 0.01;
 // they rebound whatever is left of it.
 constexpr double left_at_rest = 0.05;
 constexpr int most_solves = 4;
+// Corrections of a rebound while contact still pushes, and the share of its speed that is left uncorrected.
+constexpr int most_corrections = 30;
+constexpr double uncorrected = 1e-3;
 // Share of the mean diagonal of W'M^-1 W that keeps corrections small where pairs depend on each other.
 constexpr double damping = 0.01;
 
@@ -32,7 +35,7 @@ template <int Dim>
 std::vector<Impacts> clusters_of(const Impacts& impacts, const ImpactColumns<Dim>& columns) {
   std::vector<int> group(impacts.size());
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = int(i);
-  const auto shared = [&](int a, int b) { return a == b && columns.center(a).has_value(); };
+  const auto shared = [&](int a, int b) { return columns.moves_with(a, b); };
   for (std::size_t i = 0; i < impacts.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const Impact &a = impacts[i], &b = impacts[j];
@@ -52,7 +55,10 @@ std::vector<Impacts> clusters_of(const Impacts& impacts, const ImpactColumns<Dim
 template <int Dim>
 Impacts ImpactSearch<Dim>::run(const std::vector<PairImpulse>& pairs) const {
   Pushes pushes = pushes_of(pairs);
-  Impacts under_way, all;
+  Impacts under_way, all, rebounds;
+  for (const Impact& earlier : state_.impacts)
+    if (earlier.stage == Impact::Stage::due)
+      rebounds.push_back(rebounded(earlier, pushes.contains({earlier.first, earlier.second})));
   for (const Impact& earlier : state_.impacts) {
     if (!is_under_way(earlier)) continue;
     under_way.push_back(earlier);
@@ -67,6 +73,14 @@ Impacts ImpactSearch<Dim>::run(const std::vector<PairImpulse>& pairs) const {
   for (Impacts& cluster : clusters_of(under_way, columns_)) {
     if (is_over(cluster)) set_rebounds(cluster);
     all.insert(all.end(), cluster.begin(), cluster.end());
+  }
+  const auto meets_again = [&](const Impact& i) {
+    return std::any_of(under_way.begin(), under_way.end(),
+                       [&](const Impact& other) { return other.first == i.first && other.second == i.second; });
+  };
+  for (Impact& impact : rebounds) {
+    if (meets_again(impact)) impact.stage = Impact::Stage::acted, impact.impulses.clear();
+    all.push_back(std::move(impact));
   }
   return all;
 }
@@ -153,7 +167,7 @@ bool ImpactSearch<Dim>::is_fast(const SolidPair& pair, const Push& push) const {
 template <int Dim>
 bool ImpactSearch<Dim>::touches(const SolidPair& pair, const Impacts& impacts) const {
   const auto is_shared = [&](int k, const Impact& i) {
-    return (k == i.first || k == i.second) && columns_.center(k).has_value();
+    return columns_.moves_with(k, i.first) || columns_.moves_with(k, i.second);
   };
   return std::any_of(impacts.begin(), impacts.end(),
                      [&](const Impact& i) { return is_shared(pair[0], i) || is_shared(pair[1], i); });
@@ -217,9 +231,31 @@ void ImpactSearch<Dim>::set_rebounds(Impacts& cluster) const {
   for (Eigen::Index i = 0; i < n; ++i) {
     Impact& impact = cluster[std::size_t(i)];
     impact.stage = Impact::Stage::due;
+    impact.solves = 0;
+    impact.approach = forces[i] - now[i] - made[i];
     impact.share = J[i] / most[i];
     impact.response = J[i] * made[i];
   }
+}
+
+// Contact returns what it has stored over some steps where these are short. While it pushes the pair, the next solve
+// takes back by how much they part faster than the rebound is to be.
+template <int Dim>
+Impact ImpactSearch<Dim>::rebounded(const Impact& earlier, bool is_pushed) const {
+  Impact impact;
+  impact.first = earlier.first, impact.second = earlier.second;
+  impact.stage = Impact::Stage::acted;
+  if (!is_pushed || earlier.solves >= most_corrections) return impact;
+  const ImpactColumn column = column_of(earlier);
+  const double excess = column.parting(v_.after) + earlier.approach, response = columns_.product(column, column);
+  impact.stage = Impact::Stage::due;
+  impact.solves = earlier.solves + 1;
+  impact.approach = earlier.approach + driven(column);
+  impact.impulses = earlier.impulses;
+  if (excess <= uncorrected * std::abs(earlier.approach) || response <= 0) return impact;
+  impact.share = -excess / (response * column.size);
+  impact.response = excess * excess / response;
+  return impact;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                            \

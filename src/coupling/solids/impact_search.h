@@ -12,17 +12,18 @@ struct ImpactVelocities {
   const Eigen::VectorXd &before, &alone, &free, &after;  // the solve; without contact and rebounds; without contact
 };
 
-// Groups of impacts that share free solids, in the order of their first members.
+// Groups of impacts that share free solids or whose solids joints link, in the order of their first members.
 template <int Dim>
 std::vector<Impacts> clusters_of(const Impacts& impacts, const ImpactColumns<Dim>& columns);
 
 template <int Dim>
 class ImpactSearch {
  public:
-  ImpactSearch(const Setup<Dim>& setup, const State<Dim>& state, const SolidCoupling<Dim>& coupling, double dt,
-               double horizon, const ImpactVelocities& v)
-      : setup_(setup), state_(state), columns_(state, coupling, horizon), dt_(dt), horizon_(horizon), v_(v) {}
-  // Continues the impacts that were under way before the solve, with the impulses of contact `pairs`.
+  ImpactSearch(const Setup<Dim>& setup, const State<Dim>& state, ImpactColumns<Dim> columns, double dt, double horizon,
+               const ImpactVelocities& v)
+      : setup_(setup), state_(state), columns_(std::move(columns)), dt_(dt), horizon_(horizon), v_(v) {}
+  // Continues the impacts that were under way before the solve, with the impulses of contact `pairs`, and those that
+  // have rebounded in it. Collective.
   Impacts run(const std::vector<PairImpulse>& pairs) const;
 
  private:
@@ -44,6 +45,7 @@ class ImpactSearch {
   void begin(Pushes pushes, Impacts& impacts) const;
   bool is_over(const Impacts& cluster) const;
   void set_rebounds(Impacts& cluster) const;
+  Impact rebounded(const Impact& earlier, bool is_pushed) const;
 
   const Setup<Dim>& setup_;
   const State<Dim>& state_;

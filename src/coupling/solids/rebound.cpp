@@ -52,7 +52,7 @@ template <int Dim>
 std::vector<Impacts> groups_of_due(const Setup<Dim>& setup, const Impacts& impacts, const ImpactColumns<Dim>& columns) {
   Impacts due;
   for (const Impact& impact : impacts)
-    if (impact.stage == Impact::Stage::due) due.push_back(impact);
+    if (impact.stage == Impact::Stage::due && impact.share != 0) due.push_back(impact);
   if (due.empty()) return {};
   return is_dry(setup) ? clusters_of(due, columns) : std::vector<Impacts>{due};
 }
@@ -73,18 +73,20 @@ std::string ImpactsOfSolve<Dim>::act(InertiaProblem& problem, Eigen::VectorXd& p
   before_ = velocities_in(coupling_, state_);
   free_ = alone_ = alone.velocity;
   Eigen::VectorXd given = Eigen::VectorXd::Zero(push.size());  // apart from `push`, which the problem reads
-  for (const Impacts& group : groups_of_due(setup_, state_.impacts, ImpactColumns<Dim>(state_, coupling_, horizon_)))
-    if (std::string failure = act_together(group, problem, given); !failure.empty()) return failure;
+  const ImpactColumns<Dim> columns = columns_with(nullptr);    // no responses are asked for
+  for (const Impacts& group : groups_of_due(setup_, state_.impacts, columns))
+    if (std::string failure = act_together(group, columns, problem, given); !failure.empty()) return failure;
   push += given;
   return {};
 }
 
-// Beside liquid and joints the same change of speed takes another impulse: the first bound makes up for it. The second
+// Beside liquid the same change of speed takes another impulse: the first bound makes up for it. The second
 // one is on the energy of all. Work of groups one after the other: P_k (v_before + v_alone)/2 + sum_{j < k} P_k dv_j.
 template <int Dim>
-std::string ImpactsOfSolve<Dim>::act_together(const Impacts& group, InertiaProblem& problem, Eigen::VectorXd& given) {
+std::string ImpactsOfSolve<Dim>::act_together(const Impacts& group, const ImpactColumns<Dim>& columns,
+                                              InertiaProblem& problem, Eigen::VectorXd& given) {
   const Eigen::VectorXd mean = 0.5 * (before_ - alone_) + free_;
-  const DueRebounds due = due_rebounds(group, ImpactColumns<Dim>(state_, coupling_, horizon_), mean);
+  const DueRebounds due = due_rebounds(group, columns, mean);
   const InertiaResponse pushed = problem.minimise(Eigen::SparseMatrix<double>(given.size(), given.size()), due.push);
   if (!pushed.failure.empty()) return pushed.failure;
   const Eigen::VectorXd change = pushed.velocity - alone_;
@@ -99,16 +101,13 @@ std::string ImpactsOfSolve<Dim>::act_together(const Impacts& group, InertiaProbl
 
 template <int Dim>
 Impacts ImpactsOfSolve<Dim>::after(const Eigen::VectorXd& v, const std::vector<PairImpulse>& pairs, double dt) const {
-  if (alone_.size() == 0) return {};
-  Impacts impacts = ImpactSearch<Dim>(setup_, state_, coupling_, dt, horizon_, {before_, alone_, free_, v}).run(pairs);
-  double work = work_;
-  for (const Impact& earlier : state_.impacts) {
-    if (earlier.stage != Impact::Stage::due) continue;
-    Impact& impact = impacts.emplace_back();
-    impact.first = earlier.first, impact.second = earlier.second;
-    impact.stage = Impact::Stage::acted;
-    impact.work = std::exchange(work, 0.0);
-  }
+  if (alone_.size() == 0 || (pairs.empty() && state_.impacts.empty())) return {};
+  ImpactColumns<Dim> columns = columns_with(jointed_inertia(coupling_, setup_.domain.ranks));
+  const ImpactVelocities velocities{before_, alone_, free_, v};
+  Impacts impacts = ImpactSearch<Dim>(setup_, state_, std::move(columns), dt, horizon_, velocities).run(pairs);
+  const auto is_rebound = [](const Impact& i) { return i.stage != Impact::Stage::meeting; };
+  const auto first = std::find_if(impacts.begin(), impacts.end(), is_rebound);
+  if (first != impacts.end()) first->work = work_;
   return impacts;
 }
 

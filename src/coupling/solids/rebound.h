@@ -15,11 +15,15 @@ class ImpactsOfSolve {
   // Adds the rebounds that are due to `push`, the coupling's, as far as the energy goes that their impacts took. Empty,
   // or what fails. Collective.
   std::string act(InertiaProblem& problem, Eigen::VectorXd& push);
-  // Impacts under way after the solve over dt (s) found velocities v and impulses of contact between pairs.
+  // Impacts under way after the solve over dt (s) found velocities v and impulses of contact between pairs. Collective.
   Impacts after(const Eigen::VectorXd& v, const std::vector<PairImpulse>& pairs, double dt) const;
 
  private:
-  std::string act_together(const Impacts& group, InertiaProblem& problem, Eigen::VectorXd& given);
+  std::string act_together(const Impacts& group, const ImpactColumns<Dim>& columns, InertiaProblem& problem,
+                           Eigen::VectorXd& given);
+  ImpactColumns<Dim> columns_with(std::shared_ptr<const BodyMatrix> jointed) const {
+    return {state_, coupling_, std::move(jointed), horizon_};
+  }
 
   const Setup<Dim>& setup_;
   const State<Dim>& state_;

@@ -13,13 +13,14 @@ struct Impact {
   };
   enum class Stage : char {
     meeting,  // contact brings them to rest against each other
-    due,      // the rebound acts in the coming solve
+    due,      // the rebound, or a correction of it, acts in the coming solve
     acted     // it was part of the last solve
   };
   int first = 0, second = 0;  // solids; second below 0: a side of the domain, as in PairImpulse
   Stage stage = Stage::meeting;
-  int solves = 0;  // since they met
-  // Speed of approach before this and all neighbouring impacts, with what forces add on the way that is left, m/s.
+  int solves = 0;  // since they met; once due: corrections so far
+  // Speed of approach before this and all neighbouring impacts, with what forces add on the way that is left, m/s. Once
+  // due: that after the rebound, below 0.
   double approach = 0;
   double energy = 0;  // that contact has taken from them; once due: that the rebound may give back, J (2D: J/m)
   // Once due: the rebound over the impulses of contact, and the change of speed by it times its impulse, if there were
