@@ -1,5 +1,6 @@
 // Verbs that describe the program, for people, shells and editors: help, completion, manual page, schema of scenes.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -38,17 +39,30 @@ std::string words_of_verbs(const CLI::App& program) {
   return words;
 }
 
+// Words that a verb takes in place of a file; empty: it takes files.
+std::vector<std::string> words_after(const CLI::App& verb, const CLI::App& program) {
+  if (verb.get_name() == "completion") return {"bash", "zsh", "fish"};
+  std::vector<std::string> words;
+  if (verb.get_name() == "help")
+    for (const CLI::App* other : shown_verbs(program)) words.push_back(other->get_name());
+  return words;
+}
+
 std::string bash_completion(const CLI::App& program) {
   std::string text = fmt::format(
       "# bash completion of seiche: source <(seiche completion bash)\n_seiche() {{\n"
-      "  local word=\"${{COMP_WORDS[COMP_CWORD]}}\" words=\"\"\n"
+      "  local word=\"${{COMP_WORDS[COMP_CWORD]}}\" words=\"\" named=\"\"\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ]; then words=\"{} --help --version\"; else\n"
       "    case \"${{COMP_WORDS[1]}}\" in\n",
       words_of_verbs(program));
-  for (const CLI::App* verb : shown_verbs(program))
-    text += fmt::format("      {}) words=\"{}\" ;;\n", verb->get_name(), option_words(*verb).substr(1));
+  for (const CLI::App* verb : shown_verbs(program)) {
+    const std::vector<std::string> named = words_after(*verb, program);
+    text += fmt::format("      {}) {}words=\"{}{}\" ;;\n", verb->get_name(), named.empty() ? "" : "named=1; ",
+                        named.empty() ? "" : fmt::format("{} ", fmt::join(named, " ")), option_words(*verb).substr(1));
+  }
   return text +
-         "    esac\n  fi\n  case \"$word\" in -*) ;; *) [ \"$COMP_CWORD\" -gt 1 ] && return ;; esac\n"
+         "    esac\n  fi\n"
+         "  case \"$word\" in -*) ;; *) [ \"$COMP_CWORD\" -gt 1 ] && [ -z \"$named\" ] && return ;; esac\n"
          "  COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n}\ncomplete -o default -F _seiche seiche\n";
 }
 
@@ -74,7 +88,8 @@ std::string zsh_completion(const CLI::App& program) {
       const std::string value = option->get_expected_min() > 0 ? ":value:_files" : "";
       text += " " + quoted(fmt::format("--{}[{}]{}", option->get_lnames()[0], doc, value));
     }
-    text += " '*:file:_files' ;;\n";
+    const std::vector<std::string> named = words_after(*verb, program);
+    text += named.empty() ? " '*:file:_files' ;;\n" : fmt::format(" '1:word:({})' ;;\n", fmt::join(named, " "));
   }
   return text + "  esac\n}\n_seiche \"$@\"\n";
 }
@@ -88,6 +103,8 @@ std::string fish_completion(const CLI::App& program) {
       text += fmt::format("complete -c seiche -n '__fish_seen_subcommand_from {}' -l {} {}-d {}\n", verb->get_name(),
                           option->get_lnames()[0], option->get_expected_min() > 0 ? "-r " : "",
                           quoted(option->get_description()));
+    for (const std::string& word : words_after(*verb, program))
+      text += fmt::format("complete -c seiche -n '__fish_seen_subcommand_from {}' -f -a {}\n", verb->get_name(), word);
   }
   return text;
 }

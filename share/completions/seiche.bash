@@ -1,6 +1,6 @@
 # bash completion of seiche: source <(seiche completion bash)
 _seiche() {
-  local word="${COMP_WORDS[COMP_CWORD]}" words=""
+  local word="${COMP_WORDS[COMP_CWORD]}" words="" named=""
   if [ "$COMP_CWORD" -eq 1 ]; then words="run resume check validate info render plot export init help completion manual schema --help --version"; else
     case "${COMP_WORDS[1]}" in
       run) words="--help --out --overwrite --set --frames --threads --walltime --watchdog --quiet" ;;
@@ -12,13 +12,13 @@ _seiche() {
       plot) words="--help --file --columns --names --out --size --log --font" ;;
       export) words="--help --format --frames --out --up" ;;
       init) words="--help --example --list --overwrite" ;;
-      help) words="--help" ;;
-      completion) words="--help" ;;
+      help) named=1; words="run resume check validate info render plot export init help completion manual schema --help" ;;
+      completion) named=1; words="bash zsh fish --help" ;;
       manual) words="--help" ;;
       schema) words="--help" ;;
     esac
   fi
-  case "$word" in -*) ;; *) [ "$COMP_CWORD" -gt 1 ] && return ;; esac
+  case "$word" in -*) ;; *) [ "$COMP_CWORD" -gt 1 ] && [ -z "$named" ] && return ;; esac
   COMPREPLY=($(compgen -W "$words" -- "$word"))
 }
 complete -o default -F _seiche seiche

@@ -84,8 +84,24 @@ complete -c seiche -n '__fish_seen_subcommand_from init' -l list -d 'Show the ex
 complete -c seiche -n '__fish_seen_subcommand_from init' -l overwrite -d 'Replace files that are there'
 complete -c seiche -n __fish_use_subcommand -f -a help -d 'Show the verbs, or the options of one'
 complete -c seiche -n '__fish_seen_subcommand_from help' -l help -d 'Print this help message and exit'
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a run
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a resume
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a check
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a validate
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a info
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a render
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a plot
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a export
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a init
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a help
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a completion
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a manual
+complete -c seiche -n '__fish_seen_subcommand_from help' -f -a schema
 complete -c seiche -n __fish_use_subcommand -f -a completion -d 'Print a completion script for a shell'
 complete -c seiche -n '__fish_seen_subcommand_from completion' -l help -d 'Print this help message and exit'
+complete -c seiche -n '__fish_seen_subcommand_from completion' -f -a bash
+complete -c seiche -n '__fish_seen_subcommand_from completion' -f -a zsh
+complete -c seiche -n '__fish_seen_subcommand_from completion' -f -a fish
 complete -c seiche -n __fish_use_subcommand -f -a manual -d 'Print the manual page, for man -l -'
 complete -c seiche -n '__fish_seen_subcommand_from manual' -l help -d 'Print this help message and exit'
 complete -c seiche -n __fish_use_subcommand -f -a schema -d 'Print the JSON schema of scenes, for editors that complete TOML'

@@ -19,7 +19,8 @@ def printed(program, words):
 def bash_completes(program):
     """What bash offers for a verb, for options of a verb, and for a file after one."""
     script = printed(program, ["completion", "bash"])
-    tries = {"seiche re": ["render", "resume"], "seiche run --ov": ["--overwrite"], "seiche export --fo": ["--format"]}
+    tries = {"seiche re": ["render", "resume"], "seiche run --ov": ["--overwrite"], "seiche export --fo": ["--format"],
+             "seiche help re": ["render", "resume"], "seiche completion z": ["zsh"], "seiche run re": []}
     for line, wanted in tries.items():
         words = line.split()
         ask = f"COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _seiche; echo \"${{COMPREPLY[@]}}\""

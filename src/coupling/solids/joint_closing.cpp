@@ -177,7 +177,7 @@ std::string close_joints(const JointSet<Dim>& joints, const Communicator& ranks,
   if (!moved) return {};
   if (shown) set_shown(state.solids, masses.bodies(), solids);
   state.solids = std::move(solids);
-  return open.empty() ? std::string() : names_of_loops(joints, state.solids, open);
+  return open.empty() ? std::string() : names_of_loops(joints, state, open);
 }
 
 template std::string close_joints<2>(const JointSet<2>&, const Communicator&, double, bool, State<2>&);

@@ -160,7 +160,7 @@ std::string JointMotion<Dim>::names_of_open(const Eigen::VectorXd& gaps) const {
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (std::abs(gaps[Eigen::Index(i)]) * rows_[i].size > gap_tolerance(joints_.list[std::size_t(rows_[i].joint)]))
       open.push_back(rows_[i].joint);
-  return names_of_loops(joints_, state_.solids, open);
+  return names_of_loops(joints_, state_, open);
 }
 
 template <int Dim>

@@ -17,16 +17,16 @@ std::array<int, 2> linked_by(const Joint& joint, const Participants<Dim>& solids
 
 // Joints of the shortest chain between the solids of joint `closing`, without it; empty: none. By breadth first.
 template <int Dim>
-std::vector<int> chain_around(const JointSet<Dim>& joints, const Participants<Dim>& solids, int closing) {
-  const auto [from, to] = linked_by(joints.list[std::size_t(closing)], solids);
+std::vector<int> chain_around(const JointSet<Dim>& joints, const State<Dim>& state, int closing) {
+  const auto [from, to] = linked_by(joints.list[std::size_t(closing)], state.solids);
   std::map<int, std::array<int, 2>> reached{{from, {-1, -1}}};  // by solid: the joint and the solid before it
   std::vector<int> front{from};
   while (!front.empty() && !reached.contains(to)) {
     std::vector<int> next;
     for (int j = 0; j < int(joints.list.size()); ++j) {
       const Joint& joint = joints.list[std::size_t(j)];
-      if (j == closing || joint.spec.kind == JointKind::gear) continue;
-      const std::array<int, 2> ends = linked_by(joint, solids);
+      if (j == closing || joint.spec.kind == JointKind::gear || state.joints[std::size_t(j)].broken) continue;
+      const std::array<int, 2> ends = linked_by(joint, state.solids);
       for (const int side : {0, 1}) {
         const int here = ends[std::size_t(side)], there = ends[std::size_t(1 - side)];
         if (std::find(front.begin(), front.end(), here) == front.end()) continue;
@@ -43,20 +43,19 @@ std::vector<int> chain_around(const JointSet<Dim>& joints, const Participants<Di
 }  // namespace
 
 template <int Dim>
-std::string names_of_loops(const JointSet<Dim>& joints, const Participants<Dim>& solids, const std::vector<int>& open) {
+std::string names_of_loops(const JointSet<Dim>& joints, const State<Dim>& state, const std::vector<int>& open) {
   std::vector<int> all = open;
   for (const int j : open) {
     const Joint& joint = joints.list[std::size_t(j)];
     const bool gear = joint.spec.kind == JointKind::gear;
-    const std::vector<int> others =
-        gear ? std::vector<int>{joint.first, joint.second} : chain_around(joints, solids, j);
+    const std::vector<int> others = gear ? std::vector<int>{joint.first, joint.second} : chain_around(joints, state, j);
     all.insert(all.end(), others.begin(), others.end());
   }
   std::sort(all.begin(), all.end());
   return joints.names_of(all);
 }
 
-template std::string names_of_loops<2>(const JointSet<2>&, const Participants<2>&, const std::vector<int>&);
-template std::string names_of_loops<3>(const JointSet<3>&, const Participants<3>&, const std::vector<int>&);
+template std::string names_of_loops<2>(const JointSet<2>&, const State<2>&, const std::vector<int>&);
+template std::string names_of_loops<3>(const JointSet<3>&, const State<3>&, const std::vector<int>&);
 
 }  // namespace seiche

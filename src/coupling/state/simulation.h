@@ -151,7 +151,9 @@ class Simulation {
   virtual std::vector<std::string> describe_start() const { return {}; }
   // The same in numbers, with the draughts of floating bodies.
   virtual StartAccount start_account() const { return {}; }
-  virtual ProbeSample probe(std::size_t index) const = 0;  // collective; equal on all ranks
+  // Both are collective, and const for what they show alone: after a step that left the grid out, the first call
+  // places the solids on it, which all ranks do together. No two threads may call them at once.
+  virtual ProbeSample probe(std::size_t index) const = 0;  // equal on all ranks
   // Owned cells of a field: surface (continued into solids), closed_surface (without what lies in them), vel, pressure,
   // viscosity, vorticity.
   virtual FrameField frame_field(const std::string& name) const = 0;

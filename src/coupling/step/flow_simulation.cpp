@@ -230,7 +230,7 @@ class FlowSimulation : public Simulation {
     return setup_->solids.geometry.measure(place_moving_bodies(state_), state_.time);
   }
 
-  // With distances, which steps without fluids leave out.
+  // With distances, which steps without fluids leave out. Collective: the first call after such a step measures them.
   const StepGeometry<Dim>& geometry_on_grid() const {
     return geometry_.psi.empty() ? geometry_ = measure_geometry() : geometry_;
   }
@@ -331,7 +331,9 @@ class FlowSimulation : public Simulation {
   // Volumes, energies, momentum and speed of a state.
   StepStats measure(const State<Dim>& state, const StepGeometry<Dim>& geometry) const {
     StepStats stats;
-    stats.step = state.step, stats.time = state.time, stats.dt = state.dt_now;
+    stats.step = state.step;
+    stats.time = state.time;
+    stats.dt = state.dt_now;
     measure_fluids(setup_->domain, setup_->fluids, state, geometry.psi, stats);
     if (setup_->tracks_volume()) measure_tracked(setup_->domain, setup_->fluids, state, stats);
     if (setup_->volume_meets_void()) measure_drops(setup_->domain, setup_->fluids, state, stats);
