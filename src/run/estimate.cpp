@@ -21,49 +21,22 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Direction against gravity at the start; zero without gravity.
-Vec3 upwards(const Scene& scene) {
-  const Vec3 g = Gravity(scene.gravity).at(0);
-  return g.norm() > 0 ? Vec3(-g.normalized()) : Vec3(0, 0, 0);
-}
-
-// Sums over the owned cells: fluid, near, band, and the height of the cells with liquid over the domain's low corner,
-// m.
+// Sums over the owned cells.
 struct CellSums {
-  double fluid = 0, near = 0, band = 0, liquid = 0, height = 0;
+  double fluid = 0, near = 0, band = 0;
 };
 
 CellSums sum_cells(const Scene& scene, const Simulation& simulation) {
   const FrameField phi = simulation.frame_field("surface");
-  const double h = scene.domain.cell_size, reach = 2.999 * h;  // frames may end their distances at 3 h
-  const Vec3 up = upwards(scene);
+  const double reach = 2.999 * scene.domain.cell_size;  // frames may end their distances at 3 h
   CellSums sums;
-  auto value = phi.values.begin();
-  for (int k = phi.lower[2]; k < phi.upper[2]; ++k)
-    for (int j = phi.lower[1]; j < phi.upper[1]; ++j)
-      for (int i = phi.lower[0]; i < phi.upper[0]; ++i, ++value) {
-        sums.near += *value < reach;
-        sums.band += std::abs(*value) < reach;
-        if (*value >= 0) continue;
-        sums.liquid += 1;
-        sums.height += h * up.dot(Vec3(i + 0.5, j + 0.5, k + 0.5));
-      }
-  const double all = double(phi.values.size());
-  sums.fluid = scene.gas.flows() ? all : sums.liquid;
-  if (scene.gas.flows()) sums.near = all;
+  for (const auto& value : phi.values) {
+    sums.near += value < reach;
+    sums.band += std::abs(value) < reach;
+    sums.fluid += value < 0;
+  }
+  if (scene.gas.flows()) sums.fluid = sums.near = double(phi.values.size());
   return sums;
-}
-
-// Mean height that liquid has to fall until it lies flat in the domain, m. For gravity along an axis.
-double height_of_fall(const Scene& scene, const CellSums& sums) {
-  const Vec3 up = upwards(scene), extent = scene.domain.upper - scene.domain.lower;
-  if (up.isZero(0) || sums.liquid == 0) return 0;
-  const double depth = std::abs(up.dot(extent)), cell = std::pow(scene.domain.cell_size, scene.dimension);
-  double volume = 1;
-  for (int a = 0; a < scene.dimension; ++a) volume *= extent[a];
-  const double flat = sums.liquid * cell / volume * depth / 2;  // height of its centre then
-  const double low = std::min(0.0, up.dot(extent));             // of the floor over the low corner
-  return std::max(0.0, sums.height / sums.liquid - low - flat);
 }
 
 // Share of the domain's cells that liquid from sources and sides comes near to, on the mean over a run: a guess.
@@ -115,19 +88,19 @@ RunSize measure_size(const Scene& scene, const Simulation& simulation, const Com
   size.cells = double(n[0]) * n[1] * n[2];
   const CellSums mine = sum_cells(scene, simulation);
   if (ranks.is_root()) measure_solids_at_start(scene, simulation, size);
-  std::array<double, 10> sums{mine.fluid, mine.near,    mine.band,   mine.liquid,      mine.height,
-                              size.nodes, size.factors, size.facets, size.solid_bytes, size.solid_speed};
+  std::array<double, 8> sums{mine.fluid,   mine.near,   mine.band,        size.nodes,
+                             size.factors, size.facets, size.solid_bytes, size.solid_speed};
   ranks.global_sum(sums);
   size.fluid = sums[0];
   size.near = sums[1];
   size.band = sums[2];
   if (has_inflow(scene)) size.near = std::min(size.cells, size.near + inflow_share * size.cells);
-  size.fall = height_of_fall(scene, {sums[0], sums[1], sums[2], sums[3], sums[4]});
-  size.nodes = sums[5];
-  size.factors = sums[6];
-  size.facets = sums[7];
-  size.solid_bytes = sums[8];
-  size.solid_speed = sums[9];
+  size.fall = simulation.start_account().liquid.fall;
+  size.nodes = sums[3];
+  size.factors = sums[4];
+  size.facets = sums[5];
+  size.solid_bytes = sums[6];
+  size.solid_speed = sums[7];
   size.feed_speed = speed_of_feeds(scene);
   size.speed = simulation.stats().max_speed;
   return size;

@@ -21,7 +21,7 @@ struct RunSize {
   double factors = 0;      // bytes of their Cholesky factors
   double facets = 0;       // of the surfaces of all solids
   double solid_bytes = 0;  // files of solids in one frame
-  double fall = 0;         // mean height that liquid has to fall until it lies flat, m
+  double fall = 0;         // mean height that liquid has to fall until it lies flat between the solids, m
   double speed = 0;        // of the liquid, m/s
   double solid_speed = 0;  // of kinematic solids, m/s
   double feed_speed = 0;   // of liquid that enters, m/s

@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "coupling/report/liquid_fall.h"
 #include "coupling/report/solid_account.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
@@ -76,7 +77,7 @@ bool warn_of_shape(const Domain<Dim>& domain, const ShapeSpec& spec, const Shape
 template <int Dim>
 std::string loss_of_region(const Domain<Dim>& domain, const ShapeSpec& spec, const std::string& name, double whole) {
   constexpr double notable = 0.05;
-  constexpr std::array<std::string_view, 5> exact{"box", "sphere", "cylinder", "capsule", "mesh"};
+  constexpr std::array<std::string_view, 6> exact{"box", "sphere", "cylinder", "capsule", "polygon", "mesh"};
   if (spec.invert || std::find(exact.begin(), exact.end(), spec.kind) == exact.end()) return {};
   const auto& geometry = domain.layout.geometry();
   const Vec<Dim> size = geometry.cells.template cast<double>() * domain.layout.h();
@@ -148,12 +149,14 @@ void account_drains(const Domain<Dim>& domain, const Fluids& fluids, const State
 }
 
 template <int Dim>
-void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
-                    SceneAccount& account) {
+void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                    const StepGeometry<Dim>& geometry, SceneAccount& account) {
+  const NodeField<Dim>& psi = geometry.psi;
   LiquidAtStart& liquid = account.start.liquid;
   const double whole = liquid_volume(domain, state.phi, no_solids(domain));
   liquid.volume = liquid_volume(domain, state.phi, psi);
   liquid.mass = liquid.volume * fluids.density();
+  liquid.fall = fall_of_liquid(domain, fluids, state, geometry);
   if (whole - liquid.volume > all * whole) liquid.in_solids = whole - liquid.volume;
   account_regions(domain, fluids.liquid, psi, account);
   account_sources(domain, fluids, state, psi, account);
@@ -219,9 +222,9 @@ void warn_of_far_joint(const Solids<Dim>& solids, const Joint& joint, SceneAccou
 
 template <int Dim>
 SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                           const DomainSpec& extent, const State<Dim>& state, const NodeField<Dim>& psi) {
+                           const DomainSpec& extent, const State<Dim>& state, const StepGeometry<Dim>& geometry) {
   SceneAccount account;
-  account_liquid(domain, fluids, state, psi, account);
+  account_liquid(domain, fluids, state, geometry, account);
   account.start.solids = account_solids(solids, extent, account.warnings);
   const std::vector<Joint>& joints = solids.joints.list;
   for (const Joint& joint : joints) warn_of_far_joint(solids, joint, account);
@@ -244,9 +247,9 @@ std::vector<std::string> lines_of(const StartAccount& start) {
 }
 
 template SceneAccount account_scene<2>(const Domain<2>&, const Fluids&, const Solids<2>&, const DomainSpec&,
-                                       const State<2>&, const NodeField<2>&);
+                                       const State<2>&, const StepGeometry<2>&);
 template SceneAccount account_scene<3>(const Domain<3>&, const Fluids&, const Solids<3>&, const DomainSpec&,
-                                       const State<3>&, const NodeField<3>&);
+                                       const State<3>&, const StepGeometry<3>&);
 template std::vector<std::string> lines_of<2>(const StartAccount&);
 template std::vector<std::string> lines_of<3>(const StartAccount&);
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/geometry/step_geometry.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/start_account.h"
 #include "coupling/state/state.h"
@@ -16,10 +17,10 @@ struct SceneAccount {
   std::vector<std::string> warnings;  // regions without liquid, sources without room or effect, solids outside
 };
 
-// Account of the initial state. psi: distance to the solids at nodes, m. Collective; equal on all ranks.
+// Account of the initial state. Collective; equal on all ranks.
 template <int Dim>
 SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                           const DomainSpec& extent, const State<Dim>& state, const NodeField<Dim>& psi);
+                           const DomainSpec& extent, const State<Dim>& state, const StepGeometry<Dim>& geometry);
 
 // Lines for the log: liquid, solids, others.
 template <int Dim>

@@ -11,6 +11,7 @@ namespace seiche {
 struct LiquidAtStart {
   double volume = 0, mass = 0;  // in the domain and outside of solids
   double in_solids = 0;         // volume of the regions that lies inside solids
+  double fall = 0;              // mean height that it has to fall until it lies flat between the solids, m
 };
 
 // Upright equilibrium of a free body in still liquid: with the orientation of the start, apart from all others.

@@ -44,8 +44,7 @@ class FlowSimulation : public Simulation {
     surfaces_ = rest_surfaces();
     phases_.warnings = setup_->notes;
     warn_of_long_steps();
-    account_ =
-        account_scene(setup_->domain, setup_->fluids, setup_->solids, setup_->scene->domain, state_, geometry_.psi);
+    account_ = account_scene(setup_->domain, setup_->fluids, setup_->solids, setup_->scene->domain, state_, geometry_);
     phases_.warnings.insert(phases_.warnings.end(), account_.warnings.begin(), account_.warnings.end());
     refresh_from_state();
   }

@@ -104,6 +104,21 @@ TEST_CASE("estimates grow with the grid and take trial steps") {
   CHECK(tried.seconds == 2 * tried.steps);
 }
 
+TEST_CASE("liquid that a container holds does not fall, and loose liquid does") {
+  const Communicator ranks;
+  const auto fall = [&](const std::string& solids) {
+    Scene scene = tank(solids);
+    scene.liquid.regions[0].shape.lower = {0.375, 0.5, 0.375};
+    scene.liquid.regions[0].shape.upper = {0.625, 0.625, 0.625};
+    return measure_size(scene, *make_simulation(scene, ranks), ranks).fall;
+  };
+  // A box of 4 x 2 x 4 cells, 8 to 10 cells above the floor: one layer of the domain takes it.
+  CHECK(fall("") == Approx(8.5 / 16));
+  CHECK(fall("[[solid]]\nkind = \"static\"\nshape = \"expression\"\n"
+             "phi = \"abs(max(max(abs(x-0.5), abs(z-0.5))-0.1875, abs(y-0.5625)-0.125))-0.0625\"\n") ==
+        Approx(0).margin(1e-12));
+}
+
 TEST_CASE("estimates know the speeds of kinematic solids and of liquid that enters") {
   Scene scene = tank("");
   CHECK(speed_of_kinematic_solids(scene, {}) == 0);
