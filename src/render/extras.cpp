@@ -61,6 +61,10 @@ int start(std::vector<std::string> words, int input, int to_close, pid_t& child)
   return failed;
 }
 
+float label_size(int tile_width) {
+  return std::max(9.0f, float(tile_width) / 26);
+}
+
 // Copies a picture into a larger one.
 void paste(Image& onto, const Image& picture, int x0, int y0) {
   for (int y = 0; y < picture.height; ++y) {
@@ -76,21 +80,20 @@ ContactSheet::ContactSheet(int pictures, int width, int height, const std::strin
   columns_ = tiles_ > 6 ? 4 : std::min(tiles_, 3);
   tile_width_ = std::min(width, 480);
   tile_height_ = std::max(1, tile_width_ * height / width);
+  label_height_ = int(1.6f * label_size(tile_width_));
   const int rows = (tiles_ + columns_ - 1) / columns_;
-  image_ = {columns_ * (tile_width_ + gap) + gap, rows * (tile_height_ + gap) + gap, {}};
+  image_ = {columns_ * (tile_width_ + gap) + gap, rows * (label_height_ + tile_height_ + gap) + gap, {}};
   image_.rgb.assign(std::size_t(image_.width) * image_.height * 3, 255);
 }
 
 void ContactSheet::offer(int index, const Image& picture, const std::string& label) {
   const int wanted = tiles_ > 1 ? int((long(next_) * (pictures_ - 1) + (tiles_ - 1) / 2) / (tiles_ - 1)) : 0;
   if (next_ >= tiles_ || index != wanted) return;
-  const int x0 = gap + next_ % columns_ * (tile_width_ + gap), y0 = gap + next_ / columns_ * (tile_height_ + gap);
-  paste(image_, shrink(picture, tile_width_, tile_height_), x0, y0);
-  const float size = std::max(9.0f, float(tile_width_) / 26);
-  Painter measure(1, 1, Format::png, font_);
-  const int width = std::min(tile_width_, int(measure.text_width(label, size) + size));
-  Painter tag(width, int(1.6f * size), Format::png, font_);
-  tag.rectangle(0, 0, float(tag.width()), float(tag.height()), Vec3f::Constant(0.9f));
+  const int x0 = gap + next_ % columns_ * (tile_width_ + gap);
+  const int y0 = gap + next_ / columns_ * (label_height_ + tile_height_ + gap);
+  paste(image_, shrink(picture, tile_width_, tile_height_), x0, y0 + label_height_);
+  const float size = label_size(tile_width_);
+  Painter tag(tile_width_, label_height_, Format::png, font_);
   tag.text(0.5f * size, 0.8f * size + 0.5f * cap_height(size), label, size, {0.05f, 0.06f, 0.08f});
   paste(image_, tag.image(), x0, y0);
   ++next_;

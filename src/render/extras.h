@@ -12,14 +12,14 @@ namespace seiche::render {
 class ContactSheet {
  public:
   ContactSheet(int pictures, int width, int height, const std::string& font);
-  // Adds picture `index` of the series (from zero, ascending) if it is selected, and prints the label on it in a
-  // readable size.
+  // Adds picture `index` of the series (from zero, ascending) if it is selected, with the label on a line of its own
+  // above it, in a readable size.
   void offer(int index, const Image& picture, const std::string& label);
   const Image& image() const { return image_; }
 
  private:
   std::string font_;
-  int pictures_, tiles_, columns_, tile_width_, tile_height_, next_ = 0;
+  int pictures_, tiles_, columns_, tile_width_, tile_height_, label_height_, next_ = 0;
   Image image_;
 };
 

@@ -9,6 +9,7 @@
 #include "files/vtk.h"
 #include "files/vtu_reader.h"
 #include "info/info.h"
+#include "render/extras.h"
 #include "render/frame.h"
 #include "render/png_writer.h"
 #include "render/run.h"
@@ -125,6 +126,21 @@ TEST_CASE("a run is rendered in 2D and 3D, with label, contact sheet and only th
     CHECK(differ > 1000);  // the surface moved
     CHECK(read_png(out / "contact_sheet.png").width > 3 * 320);
   }
+}
+
+TEST_CASE("labels of a contact sheet cover nothing of its pictures") {
+  ContactSheet sheet(2, 200, 100, "");
+  Image red{200, 100, std::vector<std::uint8_t>(std::size_t(3 * 200 * 100))};
+  for (std::size_t i = 0; i < red.rgb.size(); i += 3) red.rgb[i] = 255;
+  for (const int n : {0, 1}) sheet.offer(n, red, "frame 12   t = 0.500 s");
+  int reds = 0, dark = 0;
+  for (std::size_t i = 0; i < sheet.image().rgb.size(); i += 3) {
+    const std::uint8_t* pixel = &sheet.image().rgb[i];
+    reds += pixel[0] > 250 && pixel[1] < 5 && pixel[2] < 5;
+    dark += pixel[0] < 120;
+  }
+  CHECK(reds == 2 * 200 * 100);
+  CHECK(dark > 100);
 }
 
 TEST_CASE("a folder without frames, a frame that is not there and a field that is not there are bad input") {
