@@ -40,6 +40,7 @@ void LiquidProblem<Dim>::add_up(const SolveReport& r) {
   report_.converged = r.converged;
   report_.iterations += r.iterations;
   report_.residual = std::max(report_.residual, r.residual);
+  report_.rounding = std::max(report_.rounding, r.rounding);
   report_.mismatch = r.mismatch;
   report_.used = r.used;
   report_.identity_rows = r.identity_rows;

@@ -21,6 +21,7 @@
 #include "coupling/step/initial_state.h"
 #include "coupling/step/look_ahead.h"
 #include "coupling/step/side_flow.h"
+#include "coupling/step/solve_notes.h"
 #include "coupling/step/step.h"
 #include "coupling/step/step_size.h"
 #include "coupling/thin/liquid_beside.h"
@@ -276,8 +277,7 @@ class FlowSimulation : public Simulation {
     rheology_iterations_ = a.rheology_iterations;
     separation_error_ = a.separation_error;
     joint_turns_ = a.joint_turns;
-    warn_of_separation();
-    warn_of_rheology(a);
+    warn_of_solves(a);
     warn_of_crossing();
     dry_sources_.warn(*setup_, state_, geometry_.psi, phases_.warnings);
     for (const std::string& line : a.solve.failed_attempts)
@@ -299,24 +299,14 @@ class FlowSimulation : public Simulation {
     if (!note.empty()) phases_.warnings.push_back(note);
   }
 
-  // Warns once.
-  void warn_of_separation() {
-    if (separation_error_ == 0 || std::exchange(told_of_separation_, true)) return;
-    phases_.warnings.push_back(fmt::format(
-        "step {}: the search for cells where liquid separates from solids did not converge; the step uses the "
-        "best set found, with an error of {:.1e} of the largest pressure (summary.json counts further ones)",
-        state_.step, separation_error_));
-  }
-
-  // Warns once.
-  void warn_of_rheology(const Attempt<Dim>& a) {
-    if (a.rheology_change == 0 || std::exchange(told_of_rheology_, true)) return;
-    const char* cause =
-        a.friction_settled ? "solver.rheology_tolerance, rheology_iterations" : "friction did not settle";
-    phases_.warnings.push_back(fmt::format(
-        "step {}: viscosity and flow do not agree after {} solves: the last one changed velocity by {:.1e} of the "
-        "largest ({}); further steps like this one are not reported",
-        state_.step, a.rheology_iterations, a.rheology_change, cause));
+  // Warns of each kind once.
+  void warn_of_solves(const Attempt<Dim>& a) {
+    const auto warn_once = [&](bool& told, std::string note) {
+      if (!note.empty() && !std::exchange(told, true)) phases_.warnings.push_back(std::move(note));
+    };
+    warn_once(told_of_separation_, note_on_separation(state_.step, separation_error_));
+    warn_once(told_of_rounding_, note_on_rounding(state_.step, a.solve, setup_->scene->solver.tolerance));
+    warn_once(told_of_rheology_, note_on_rheology(state_.step, a));
   }
 
   // Warns once.
@@ -379,7 +369,7 @@ class FlowSimulation : public Simulation {
   SolveReport solve_;
   double divergence_ = 0, separation_error_ = 0;
   int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0, joint_turns_ = 0;
-  bool told_of_separation_ = false, told_of_rheology_ = false, told_of_crossing_ = false;
+  bool told_of_separation_ = false, told_of_rounding_ = false, told_of_rheology_ = false, told_of_crossing_ = false;
   DrySources<Dim> dry_sources_;
   StepStats stats_;
   std::vector<SolidState> solids_;

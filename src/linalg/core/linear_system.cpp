@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "base/parallel_range.h"
 
@@ -76,6 +77,17 @@ void LinearSystem::residual(const Vector& b, const Vector& x, Vector& r) const {
   const double* all = with_ghosts(x);
   parallel_pieces(std::size_t(rows()), rows_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) r[i] = b[i] - row_times(i, all);
+  });
+}
+
+void LinearSystem::multiply_magnitudes(const Vector& x, Vector& y) const {
+  const double* all = with_ghosts(x);
+  parallel_pieces(std::size_t(rows()), rows_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      y[i] = 0;
+      for (int k = pattern_.row_start[i]; k < pattern_.row_start[i + 1]; ++k)
+        y[i] += std::abs(values_[std::size_t(k)] * all[columns_[std::size_t(k)]]);
+    }
   });
 }
 

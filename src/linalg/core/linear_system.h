@@ -34,6 +34,8 @@ class LinearSystem {
   void multiply(const Vector& x, Vector& y) const;
   // r = b - A x. Collective.
   void residual(const Vector& b, const Vector& x, Vector& r) const;
+  // y = |A| |x|, with the magnitudes of all entries. Collective.
+  void multiply_magnitudes(const Vector& x, Vector& y) const;
   // Sets v to zero in identity rows and subtracts its mean over each component of the null space. Collective.
   void project(Vector& v) const;
 

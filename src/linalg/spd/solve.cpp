@@ -135,6 +135,15 @@ double SpdSolver::true_residual(const Problem& problem, const Vector& x) const {
   return norm(r, system_.ranks()) / problem.norm;
 }
 
+// Residual that half a unit in the last place of each entry of b and x makes: half an epsilon of |b| + |A| |x|, over
+// the norm that residuals refer to. Without the part of the bodies.
+double SpdSolver::rounding_of_residual(const Problem& problem, const Vector& x) const {
+  Vector magnitude(x.size());
+  liquid_.multiply_magnitudes(x, magnitude);
+  for (std::size_t i = 0; i < x.size(); ++i) magnitude[i] += std::abs(problem.b[i]);
+  return 0.5 * std::numeric_limits<double>::epsilon() * norm(magnitude, system_.ranks()) / problem.norm;
+}
+
 // Iterates; restarts from the current x until the true residual meets the tolerance.
 SpdSolver::Outcome SpdSolver::iterate(const Fallback& fallback, const Problem& problem, Vector& x) {
   Built& built = build(fallback.preconditioner);
@@ -151,7 +160,8 @@ SpdSolver::Outcome SpdSolver::iterate(const Fallback& fallback, const Problem& p
                                   ? flexible_gmres(system_, B, problem.b, x, limits, system_.ranks())
                                   : conjugate_gradients(system_, B, problem.b, x, limits, system_.ranks());
     total = {total.iterations + part.iterations, part.failure};
-    if (!part.failure.empty() || true_residual(problem, x) <= problem.tolerance) break;
+    const double residual = true_residual(problem, x);
+    if (!part.failure.empty() || residual <= problem.tolerance || residual <= rounding_of_residual(problem, x)) break;
   }
   if (built.solves++ == 0) built.first_iterations = total.iterations;
   built.last_iterations = total.iterations;
@@ -201,7 +211,9 @@ void SpdSolver::try_fallback_chain(const Problem& problem, Vector& x, SolveRepor
     const double residual = true_residual(problem, y);
     report.iterations += result.iterations;
     report.used = fallback.method == Method::direct ? "direct" : fallback.preconditioner;
-    report.converged = residual <= problem.tolerance && all_finite(y, system_.ranks());
+    const double rounding = residual <= problem.tolerance ? 0 : rounding_of_residual(problem, y);
+    report.converged = residual <= std::max(problem.tolerance, rounding) && all_finite(y, system_.ranks());
+    report.rounding = report.converged ? rounding : 0;
     if (report.converged || residual < report.residual) {
       x = y;
       report.residual = residual;

@@ -22,9 +22,10 @@ struct SolveOptions {
 
 struct SolveReport {
   bool converged = false;
-  int iterations = 0;                        // over all attempts
-  double residual = 0;                       // recomputed |b - A x| / |b|
-  std::string used;                          // preconditioner of the last attempt
+  int iterations = 0;   // over all attempts
+  double residual = 0;  // recomputed |b - A x| / |b|
+  double rounding = 0;  // where the residual exceeds the tolerance but not the round-off of x and b in it: that
+  std::string used;     // preconditioner of the last attempt
   std::vector<std::string> failed_attempts;  // one line for each failed attempt
   std::int64_t identity_rows = 0;            // rows with a zero diagonal (cells without an open face): x = 0 there
   double mismatch = 0;  // |part of b outside the range| / |b|, e.g. net inflow of closed components
@@ -46,7 +47,7 @@ class SpdSolver {
   // Solves from the initial x. The part of b outside the range is removed first; x has no part in the null space. Tries
   // the chosen preconditioner, then the other attempts of the chain; the residual of every result is recomputed and
   // checked. An H without rows drops the second term. The tolerance is relative to `scale`, or to |b| if `scale` is 0.
-  // Collective.
+  // Where the round-off of x and b leaves a larger residual, that counts as converged: no x is better. Collective.
   [[nodiscard]] SolveReport solve(const BodyMatrix& H, const Vector& b, Vector& x, double scale = 0);
 
   // Closed components of A that bodies feel: H and J determine their mean pressure.
@@ -63,6 +64,7 @@ class SpdSolver {
   Built& build(const std::string& name);
   bool is_outdated(const Built& built) const;
   double true_residual(const Problem& problem, const Vector& x) const;
+  double rounding_of_residual(const Problem& problem, const Vector& x) const;
   double make_compatible(Vector& b) const;
   std::string choose();
   std::vector<Fallback> make_fallback_chain(const std::string& chosen) const;

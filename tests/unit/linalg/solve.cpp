@@ -297,4 +297,31 @@ TEST_CASE("a right-hand side scaled by a power of two scales the solution to the
   CHECK(x == y);
 }
 
+// Pressures of 1e8 among coefficients that jump, as of water over gas: half a unit in the last place of them makes
+// residuals of 1e-9.
+TEST_CASE("a tolerance below the round-off of the solution ends at that round-off") {
+  const Communicator ranks;
+  cases::Poisson p = box({12, 12, 12}, Kind::air);
+  p.weight = [](Cell c, int) { return c[1] < 6 ? 1.0 : 1000.0; };
+  const cases::System s = cases::build(p, ranks);
+  const LinearSystem system(s.A, s.grid, s.null_space, ranks);
+  Vector far(s.A.rows(), 1e8), b(s.A.rows()), x(s.A.rows(), 0.0);
+  const Vector noise = cases::noise_vector(s.A, 3);
+  for (std::size_t i = 0; i < far.size(); ++i) far[i] += noise[i];
+  system.multiply(far, b);
+  SolveOptions options;
+  options.tolerance = 1e-18;
+  options.jumps = true;
+  const SolveReport report = solve(s, b, x, options, ranks);
+  CAPTURE(report.residual, report.rounding, report.iterations, report.failed_attempts);
+  CHECK(report.converged);
+  CHECK(report.residual > options.tolerance);
+  CHECK(report.residual <= report.rounding);
+  CHECK(report.rounding < 1e-14);
+  CHECK(residual_by_hand(s.A, b, x, ranks) < 1e-14);
+  options.tolerance = 1e-8;
+  Vector y(s.A.rows(), 0.0);
+  CHECK(solve(s, b, y, options, ranks).rounding == 0);
+}
+
 }  // namespace solve_tests
