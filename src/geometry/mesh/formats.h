@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "geometry/mesh/mesh.h"
 
@@ -39,6 +40,9 @@ bool is_binary_stl(std::string_view bytes);
 // Numbers that make up the whole token, independent of the locale. Empty if the token is no number or out of range.
 std::optional<double> to_double(std::string_view token);
 std::optional<long long> to_integer(std::string_view token);
+
+// Parts of a row of a table between commas, semicolons and white space; several of these count as one.
+std::vector<std::string_view> parts_of_row(std::string_view row);
 
 // Splits text into tokens at white space, counting lines from 1.
 class Tokens {

@@ -11,18 +11,6 @@
 namespace seiche::mesh {
 namespace {
 
-// Parts of a row between commas, semicolons and white space.
-std::vector<std::string_view> parts_of_row(std::string_view row) {
-  constexpr std::string_view separators = ",; \t\r\n";
-  std::vector<std::string_view> parts;
-  for (std::size_t n = row.find_first_not_of(separators); n != std::string_view::npos;) {
-    const std::size_t end = std::min(row.find_first_of(separators, n), row.size());
-    parts.push_back(row.substr(n, end - n));
-    n = row.find_first_not_of(separators, end);
-  }
-  return parts;
-}
-
 // Tables in UTF-8 may begin with one.
 std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view mark = "\xEF\xBB\xBF";

@@ -1,4 +1,5 @@
 // Tokens, numbers and messages shared by the mesh readers.
+#include <algorithm>
 #include <charconv>
 
 #include "base/error.h"
@@ -34,6 +35,17 @@ void fail_at_line(const Source& source, std::size_t line, const std::string& mes
 
 void fail_at_byte(const Source& source, std::size_t byte, const std::string& message) {
   throw Error(ExitCode::bad_input, source.file.string() + ": byte " + std::to_string(byte) + ": " + message);
+}
+
+std::vector<std::string_view> parts_of_row(std::string_view row) {
+  constexpr std::string_view separators = ",; \t\r\n";
+  std::vector<std::string_view> parts;
+  for (std::size_t n = row.find_first_not_of(separators); n != std::string_view::npos;) {
+    const std::size_t end = std::min(row.find_first_of(separators, n), row.size());
+    parts.push_back(row.substr(n, end - n));
+    n = row.find_first_not_of(separators, end);
+  }
+  return parts;
 }
 
 std::optional<double> to_double(std::string_view token) {

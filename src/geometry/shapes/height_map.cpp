@@ -19,23 +19,6 @@ std::string in_lower_case(std::string text) {
   return text;
 }
 
-bool is_separator(char ch) {
-  return ch == ',' || ch == ';' || ch == ' ' || ch == '\t';
-}
-
-// Parts of a line between commas, semicolons and blanks; several blanks count as one.
-std::vector<std::string_view> parts_of(std::string_view line) {
-  std::vector<std::string_view> parts;
-  std::size_t n = 0;
-  while (n < line.size()) {
-    while (n < line.size() && is_separator(line[n])) ++n;
-    const std::size_t begin = n;
-    while (n < line.size() && !is_separator(line[n])) ++n;
-    if (n > begin) parts.push_back(line.substr(begin, n - begin));
-  }
-  return parts;
-}
-
 // A grid of numbers, read line by line.
 class NumberGrid {
  public:
@@ -46,7 +29,7 @@ class NumberGrid {
     while (!lines.at_end()) {
       const std::size_t number = lines.line();
       const std::string_view line = lines.rest_of_line();
-      const std::vector<std::string_view> parts = parts_of(line);
+      const std::vector<std::string_view> parts = mesh::parts_of_row(line);
       if (parts.empty() || parts[0][0] == '#') continue;
       if (map_.rows > 0 || !is_header(number, parts)) add_row(number, parts);
     }

@@ -49,7 +49,7 @@ TEST_CASE("frames hold cells of any size") {
     CHECK(read.cell_size == h);
     CHECK(read.lower == written.lower);
     CHECK(read.grids.at(0).blocks.at(0).values == written.grids[0].blocks[0].values);
-    const auto distance = vdb::read_distance(folder.path / "frame.vdb");
+    const auto distance = vdb::read_distance(folder / "frame.vdb");
     // Mean of eight voxels, half a cell off along each axis: 5 - 4 plus (0.5^2 + 0.5^2)/(2 * 5).
     CHECK((*distance)(written.lower + h * Vec3(13, 8, 8)) == Approx(1.05 * h).epsilon(1e-3));
   }

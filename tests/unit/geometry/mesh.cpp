@@ -89,11 +89,11 @@ TEST_CASE("a mesh that is read again is the same, with its notes") {
 
 TEST_CASE("missing, empty, foreign and unfetched files are refused by name") {
   const TemporaryFolder folder;
-  CHECK_THAT(refusal_of_file(folder.path / "none.obj"), Catch::Contains("none.obj") && Catch::Contains("No such file"));
+  CHECK_THAT(refusal_of_file(folder / "none.obj"), Catch::Contains("none.obj") && Catch::Contains("No such file"));
   CHECK_THAT(refusal(folder, "empty.ply", ""), Catch::Contains("0 bytes"));
   CHECK_THAT(refusal(folder, "blank.obj", "\n\n"), Catch::Contains("no faces"));
-  std::filesystem::create_directory(folder.path / "dir.obj");
-  CHECK_THAT(refusal_of_file(folder.path / "dir.obj"), Catch::Contains("folder"));
+  std::filesystem::create_directory(folder / "dir.obj");
+  CHECK_THAT(refusal_of_file(folder / "dir.obj"), Catch::Contains("folder"));
   CHECK_THAT(refusal(folder, "cube.vtk", obj(cube())), Catch::Contains(".obj, .ply or .stl"));
   CHECK_THAT(refusal(folder, "cube.obj", binary_ply(cube(), "little")), Catch::Contains("PLY"));
   CHECK_THAT(refusal(folder, "cube.obj", binary_stl(cube(), "exported")), Catch::Contains("STL"));

@@ -1,7 +1,6 @@
 #pragma once
 // Surfaces for tests of mesh readers, and their files in every format.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,28 +9,17 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
+#include "unit/files/scratch.h"
 
 namespace seiche::mesh_files {
 
-struct TemporaryFolder {
-  std::filesystem::path path;
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "seiche_mesh_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
-  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path / name, std::ios::binary) << bytes;
-    return path / name;
-  }
-};
+using TemporaryFolder = ScratchFolder;
 
 // ---- surfaces -------------------------------------------------------------------------------------------------
 

@@ -120,7 +120,7 @@ TEST_CASE("a shell keeps its cavity, and a solid in the cavity is solid") {
   const double expected = 4 * pi / 3 * (std::pow(0.45, 3) - std::pow(0.3, 3) + std::pow(0.12, 3));
   CHECK(volume(mesh) == Approx(expected).epsilon(0.01));  // chords of 64 segments a circle
   CHECK(notes.size() == 1);
-  const auto phi = make_shape<3>(mesh_spec(folder.path / "shell.ply"), {0.02, nullptr});
+  const auto phi = make_shape<3>(mesh_spec(folder / "shell.ply"), {0.02, nullptr});
   for (const auto& [r, d] :
        {std::pair{0.47, 0.02}, {0.43, -0.02}, {0.32, -0.02}, {0.28, 0.02}, {0.14, 0.02}, {0.1, -0.02}}) {
     CHECK((*phi)(Vec3(c + r * Vec3(0.48, 0.6, 0.64))) == Approx(d).margin(2e-3));  // h^2 / r

@@ -13,25 +13,12 @@
 #include "base/shape_spec.h"
 #include "geometry/shapes/shapes.h"
 #include "geometry/vdb/openvdb_adapter.h"
+#include "unit/files/scratch.h"
 
 namespace vdb_tests {
 using namespace seiche;
 
 namespace {
-
-struct TemporaryFolder {
-  std::filesystem::path path;
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "seiche_vdb_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
-};
-
-std::filesystem::path write(const TemporaryFolder& folder, const std::string& name, const std::string& bytes) {
-  std::ofstream(folder.path / name, std::ios::binary) << bytes;
-  return folder.path / name;
-}
 
 // One dense block of a function of the cell centre, with `width` values per voxel.
 template <class Function>
@@ -148,7 +135,7 @@ vdb::Frame tank_frame() {
 }  // namespace
 
 TEST_CASE("a frame read back has the same drops, by id") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const int dimension = GENERATE(2, 3);
   vdb::Frame frame = ball_frame(dimension);
   const double h = frame.cell_size, z = frame.lower[2] + (dimension == 2 ? 0.5 : 1.3) * h;
@@ -157,7 +144,7 @@ TEST_CASE("a frame read back has the same drops, by id") {
                             {1.0 * n, -2, 0.5},
                             0.1 * h * (1 + n),
                             std::int64_t(1) << (40 + n)});
-  const vdb::Frame read = vdb::decode(write(folder, "frame.0008.vdb", vdb::encode(frame)));
+  const vdb::Frame read = vdb::decode(folder.write("frame.0008.vdb", vdb::encode(frame)));
   CHECK(read.grids.size() == 3);
   REQUIRE(read.points.size() == 5);
   for (std::size_t n = 0; n < 5; ++n) {
@@ -169,10 +156,10 @@ TEST_CASE("a frame read back has the same drops, by id") {
 }
 
 TEST_CASE("a frame read back has the same voxels and metadata") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const int dimension = GENERATE(2, 3);
   const vdb::Frame frame = ball_frame(dimension);
-  const vdb::Frame read = vdb::decode(write(folder, "frame.0008.vdb", vdb::encode(frame)));
+  const vdb::Frame read = vdb::decode(folder.write("frame.0008.vdb", vdb::encode(frame)));
   CHECK(read.dimension == dimension);
   CHECK(read.time == frame.time);
   CHECK(read.dt == frame.dt);
@@ -191,44 +178,44 @@ TEST_CASE("a frame read back has the same voxels and metadata") {
 }
 
 TEST_CASE("the velocity may have another name in the file; both are read alike") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const vdb::Frame frame = ball_frame(3);
   const std::string bytes = vdb::encode(frame, "velocity");
   CHECK(bytes.size() < vdb::encode(frame).size() + 100);  // written once
-  const vdb::Frame read = vdb::decode(write(folder, "named.vdb", bytes));
+  const vdb::Frame read = vdb::decode(folder.write("named.vdb", bytes));
   require_equal_voxels(find(frame, "vel"), find(read, "vel"));
   if (installed("command -v vdb_print"))
-    CHECK(run("vdb_print " + (folder.path / "named.vdb").string() + " | grep -qw velocity") == 0);
+    CHECK(run("vdb_print " + (folder / "named.vdb").string() + " | grep -qw velocity") == 0);
 }
 
 TEST_CASE("a frame without any liquid and one of nothing but liquid are read back") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const double sign = GENERATE(-1.0, 1.0);
   vdb::Frame frame = empty_frame(3);
   frame.grids.push_back({"surface",
                          vdb::GridKind::level_set,
                          0.1f,
                          {sample(frame, {0, 0, 0}, extent3, [=](const Vec3&) { return std::array{sign}; })}});
-  const vdb::Frame read = vdb::decode(write(folder, "frame.vdb", vdb::encode(frame)));
+  const vdb::Frame read = vdb::decode(folder.write("frame.vdb", vdb::encode(frame)));
   require_equal_voxels(frame.grids[0], read.grids.at(0));
 }
 
 TEST_CASE("liquid against the walls keeps its sign in the whole domain") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const vdb::Frame frame = tank_frame();
-  const vdb::Frame read = vdb::decode(write(folder, "tank.vdb", vdb::encode(frame)));
+  const vdb::Frame read = vdb::decode(folder.write("tank.vdb", vdb::encode(frame)));
   require_equal_voxels(frame.grids[0], read.grids.at(0));
 }
 
 TEST_CASE("frames open in programs that share no code with Seiche") {
-  const TemporaryFolder folder;
-  const auto ball = write(folder, "ball.vdb", vdb::encode(ball_frame(3)));
-  const auto disc = write(folder, "disc.vdb", vdb::encode(ball_frame(2)));
-  const auto tank = write(folder, "tank.vdb", vdb::encode(tank_frame()));
+  const ScratchFolder folder;
+  const auto ball = folder.write("ball.vdb", vdb::encode(ball_frame(3)));
+  const auto disc = folder.write("disc.vdb", vdb::encode(ball_frame(2)));
+  const auto tank = folder.write("tank.vdb", vdb::encode(tank_frame()));
   const std::string files = ball.string() + " " + disc.string() + " " + tank.string();
   if (installed("command -v vdb_print")) CHECK(run("vdb_print -l " + files) == 0);
   if (installed("command -v vdb_render")) {
-    const auto picture = folder.path / "ball.ppm";
+    const auto picture = folder / "ball.ppm";
     CHECK(run("vdb_render " + ball.string() + " " + picture.string() + " -res 64x64 -translate 0,1,3") == 0);
     CHECK(std::filesystem::file_size(picture) > 0);
   }
@@ -236,7 +223,7 @@ TEST_CASE("frames open in programs that share no code with Seiche") {
     const auto tests = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
     const std::string script = (tests / "faults" / "read_frames.py").string() + " ";
     CHECK(run("/usr/bin/python3 " + script + files) == 0);
-    CHECK(run("/usr/bin/python3 " + script + folder.path.string() + "/none.vdb") != 0);
+    CHECK(run("/usr/bin/python3 " + script + folder.path().string() + "/none.vdb") != 0);
   }
 }
 
@@ -247,25 +234,25 @@ TEST_CASE("a value that is not finite is not written") {
 }
 
 TEST_CASE("files that are no frames are refused with their name") {
-  const TemporaryFolder folder;
-  CHECK_THAT(refusal(folder.path / "none.vdb"), Catch::Contains("none.vdb") && Catch::Contains("No such file"));
-  CHECK_THAT(refusal(folder.path), Catch::Contains("folder"));
-  CHECK_THAT(refusal(write(folder, "empty.vdb", "")), Catch::Contains("0 bytes"));
-  CHECK_THAT(refusal(write(folder, "text.vdb", "not a frame at all\n")), Catch::Contains("text.vdb"));
+  const ScratchFolder folder;
+  CHECK_THAT(refusal(folder / "none.vdb"), Catch::Contains("none.vdb") && Catch::Contains("No such file"));
+  CHECK_THAT(refusal(folder.path()), Catch::Contains("folder"));
+  CHECK_THAT(refusal(folder.write("empty.vdb", "")), Catch::Contains("0 bytes"));
+  CHECK_THAT(refusal(folder.write("text.vdb", "not a frame at all\n")), Catch::Contains("text.vdb"));
   const std::string bytes = vdb::encode(ball_frame(3));
   for (const double share : {0.01, 0.1, 0.3, 0.5, 0.9, 0.99}) {
-    const auto file = write(folder, "cut.vdb", bytes.substr(0, std::size_t(share * double(bytes.size()))));
+    const auto file = folder.write("cut.vdb", bytes.substr(0, std::size_t(share * double(bytes.size()))));
     CHECK_THAT(refusal(file), Catch::Contains("cut.vdb"));
   }
 }
 
 TEST_CASE("the level set of a frame serves as a shape") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const int dimension = GENERATE(2, 3);
   const vdb::Frame frame = ball_frame(dimension);
   ShapeSpec spec;
   spec.kind = "level_set";
-  spec.file = write(folder, "ball.vdb", vdb::encode(frame));
+  spec.file = folder.write("ball.vdb", vdb::encode(frame));
   spec.transform.translate = Vec3(0.5, -0.25, 0);
   const double h = frame.cell_size;
   const Vec3 center = frame.lower + h * Vec3(16.2, 14.1, dimension == 3 ? 10.3 : 0.5) + spec.transform.translate;
@@ -283,11 +270,11 @@ TEST_CASE("the level set of a frame serves as a shape") {
 }
 
 TEST_CASE("a frame of the other dimension is no shape of the scene") {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ShapeSpec spec;
   spec.kind = "level_set";
   spec.where = "scene.toml:7";
-  spec.file = write(folder, "disc.vdb", vdb::encode(ball_frame(2)));
+  spec.file = folder.write("disc.vdb", vdb::encode(ball_frame(2)));
   CHECK_THROWS_WITH(make_shape<3>(spec, {0.1, nullptr}),
                     Catch::StartsWith("scene.toml:7: ") && Catch::Contains("2 dimensions"));
 }

@@ -19,9 +19,7 @@ namespace {
 // Scenes in a folder of their own.
 class Files {
  public:
-  Files() { std::filesystem::create_directories(folder_ / "inner"); }
-  ~Files() { std::filesystem::remove_all(folder_); }
-  void put(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void put(const std::string& name, const std::string& text) const { folder_.write(name, text); }
   Scene read(const std::string& text, const std::vector<Override>& overrides = {}) const {
     put("scene.toml", text);
     return read_scene(folder_ / "scene.toml", overrides);
@@ -32,7 +30,7 @@ class Files {
   }
 
  private:
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / fmt::format("seiche_include_{}", ::getpid());
+  ScratchFolder folder_;
 };
 
 const std::string ball =

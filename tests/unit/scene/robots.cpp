@@ -37,21 +37,19 @@ std::string arm(const std::string& type, const std::string& more) {
 class RobotScene {
  public:
   explicit RobotScene(const std::string& elements) {
-    std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "robot.urdf") << "<robot name=\"r\">" << elements << "</robot>";
+    folder_.write("robot.urdf", "<robot name=\"r\">" + elements + "</robot>");
   }
-  ~RobotScene() { std::filesystem::remove_all(folder_); }
   Scene read(const std::string& keys = "") const {
     return parse_scene(
         small_scene + "[[robot]]\nname = \"bot\"\nfile = \"robot.urdf\"\ntranslate = [0.5, 0.5, 0.5]\n" + keys,
-        "scene.toml", folder_, {});
+        "scene.toml", folder_.path(), {});
   }
   void check_refused(const std::string& keys, const std::string& why) const {
     CHECK_THROWS_WITH(read(keys), Contains(why));
   }
 
  private:
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / fmt::format("seiche_robot_{}", ::getpid());
+  ScratchFolder folder_;
 };
 
 const std::string limits = "<limit lower=\"-0.5\" upper=\"1\" effort=\"3\" velocity=\"2\"/>";

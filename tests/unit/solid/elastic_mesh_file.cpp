@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "solid/mesh/file.h"
+#include "unit/files/scratch.h"
 #include "unit/solid/elastic_cases.h"
 
 namespace elastic_mesh_file_tests {
@@ -16,18 +17,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "seiche_elastic_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path / name, std::ios::binary) << bytes;
-    return path / name;
-  }
-};
+using Folder = ScratchFolder;
 
 template <int Dim>
 std::string point(const Vec<Dim>& X) {
@@ -144,7 +134,7 @@ TEMPLATE_TEST_CASE_SIG("Mesh files are read as they were written", "[elastic]", 
 TEST_CASE("Mesh files that lie are refused", "[elastic]") {
   const Folder folder;
   std::vector<std::string> notes;
-  CHECK_THROWS_WITH(read_elastic_mesh<2>(folder.path / "none.msh", notes), Contains("cannot be read"));
+  CHECK_THROWS_WITH(read_elastic_mesh<2>(folder / "none.msh", notes), Contains("cannot be read"));
   expect_refused(folder, "x.obj", "v 0 0 0", "use .msh, .vtu or .mesh");
   expect_refused(folder, "x.msh", "", "0 bytes");
   expect_refused(folder, "x.msh", "version https://git-lfs.github.com/spec/v1\n", "git lfs pull");
