@@ -52,8 +52,7 @@ struct RheologySpec {
 enum class TensionScheme { explicit_steps, semi_implicit };
 
 // by_shift: the level set alone knows the liquid; one shift of it keeps the volume. in_cells: the liquid's share of
-// each cell is carried as well. automatic: in_cells in prescribed flows without sources and inflow sides, and under
-// gas without surface tension if no solid is thin or moves as prescribed, else by_shift.
+// each cell is carried as well. automatic: see Setup::tracks_volume().
 enum class VolumeKeeping { automatic, in_cells, by_shift };
 
 struct LiquidSpec {

@@ -163,7 +163,8 @@ vdb::Frame FrameWriter::gather(const FrameLabel& label, const Simulation& simula
     closed.closed = true;
     open.name = "free_surface";
   }
-  frame.points = gather_drops(simulation.drops(), scene_, ranks_);
+  if (const auto drops = simulation.drops())
+    frame.has_drops = true, frame.points = gather_drops(*drops, scene_, ranks_);
   return frame;
 }
 
@@ -199,7 +200,7 @@ void FrameWriter::write_joints(const FrameLabel& label, const Simulation& simula
 void FrameWriter::write_fluid(const vdb::Frame& frame) const {
   write_file(paths_.frames() / frame_file("fluid", frame.number, "vti"), vtk::image(frame, scene_.domain.cells));
   write_file(paths_.frames() / "fluid.pvd", vtk::series("fluid", "vti", frame.number, scene_.time.frame_rate));
-  if (scene_.liquid.volume != VolumeKeeping::in_cells || scene_.gas.flows()) return;
+  if (!frame.has_drops) return;
   write_file(paths_.frames() / frame_file("drops", frame.number, "vtu"), vtk::drops(frame.points, frame.time));
   write_file(paths_.frames() / "drops.pvd", vtk::series("drops", "vtu", frame.number, scene_.time.frame_rate));
 }

@@ -191,11 +191,11 @@ void check_gas(const Checker& c, const Scene& scene) {
 // Drops are made in vacuum, of volumes in cells.
 void check_spray(const Checker& c, const Scene& scene) {
   const LiquidSpec& liquid = scene.liquid;
-  if (liquid.spray || (liquid.volume == VolumeKeeping::in_cells && !scene.gas.flows() && !liquid.prescribed_velocity))
+  if (liquid.spray || (liquid.volume != VolumeKeeping::by_shift && !scene.gas.flows() && !liquid.prescribed_velocity))
     return;
   c.report("liquid.spray",
-           "liquid.spray = false needs liquid.volume = \"cells\", no gas that flows and no "
-           "liquid.prescribed_velocity: liquid flies as drops only there; remove spray");
+           "liquid.spray = false does not go with liquid.volume = \"shift\", gas that flows or "
+           "liquid.prescribed_velocity: liquid flies as drops only without them; remove spray");
 }
 
 // Height maps without an axis of their own rise against gravity, to the axis nearest to that.

@@ -71,8 +71,9 @@ Key<LiquidSpec> volume_key() {
        .doc =
            "how liquid is kept. \"cells\": the share of each cell is carried, so that liquid stays where it is, to "
            "rounding; for scenes whose solids are thicker than a cell. \"shift\": one shift of the whole surface keeps "
-           "the sum. \"auto\": \"cells\" in prescribed flows without sources and inflow sides, and with gas that "
-           "flows, without surface tension and thin solids, else \"shift\""},
+           "the sum. \"auto\": \"shift\" where liquid fills the domain for good, beside solids thinner than a cell, beside "
+           "elastic ones if no gas flows, with sources whose shapes move, under gas that flows with surface tension, and "
+           "in prescribed flows with sources or inflow sides; else \"cells\""},
       &LiquidSpec::volume,
       {{"auto", VolumeKeeping::automatic}, {"cells", VolumeKeeping::in_cells}, {"shift", VolumeKeeping::by_shift}});
 }
@@ -156,7 +157,7 @@ Section<LiquidSpec> liquid_section() {
       volume_key(),
       value_key<S>({.key = "spray",
                     .type = T::boolean,
-                    .doc = "with volume = \"cells\" and no gas that flows: liquid too little for the grid flies on as "
+                    .doc = "unless volume is kept by a shift or gas flows: liquid too little for the grid flies on as "
                            "drops; false: it is left out, and stats.csv counts it"},
                    &S::spray),
       viscosity_key(),

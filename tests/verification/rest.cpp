@@ -19,14 +19,18 @@ SolidSpec container(const std::string& kind) {
   return s;
 }
 
-// Largest speed over 100 steps.
-double largest_speed(Scene s) {
+// Largest speeds over 100 steps and in the last of them.
+std::pair<double, double> speeds(Scene s) {
   s.solver.tolerance = 1e-13;  // the bar is a speed; gravity times dt times the default 1e-8 would exceed it
   s.time.max_step = 0.01;
   const auto sim = make_simulation(s, Communicator());
-  double largest = 0;
-  for (int n = 0; n < 100; ++n) largest = std::max(largest, sim->step(sim->time() + 1).max_speed);
-  return largest;
+  double largest = 0, last = 0;
+  for (int n = 0; n < 100; ++n) last = sim->step(sim->time() + 1).max_speed, largest = std::max(largest, last);
+  return {largest, last};
+}
+
+double largest_speed(const Scene& s) {
+  return speeds(s).first;
 }
 
 // Gravity oblique to every axis; the liquid is the half space below a plane normal to it.
@@ -58,6 +62,23 @@ TEST_CASE("liquid rests in a tilted box", "[long]") {
     WARN("tilted box " << dim << "D: " << speed << " m/s");
     CHECK(speed <= 1e-10);
   }
+}
+
+// Faces beyond the surface have a velocity of their own there. With weight and no pressure they pulled the surface
+// down: in 2D 5e-4 m/s after half a second by either route, now 9e-6 split and 4e-9 coupled, 4e-5 and 9e-8 in 3D. The
+// split route begins without a pressure, which leaves a flow that dies away.
+TEST_CASE("viscous liquid rests below a slanting surface") {
+  for (const ViscousSolve route : {ViscousSolve::split, ViscousSolve::coupled})
+    for (const int dim : {2, 3}) {
+      Scene s = test::box_scene(dim, dim == 2 ? 32 : 12);
+      fill_half(s, {0.31, -1, 0.17});
+      s.liquid.viscosity = "5";
+      s.solver.viscosity = route;
+      const auto [largest, last] = speeds(s);
+      WARN(dim << "D, " << (route == ViscousSolve::split ? "split" : "coupled") << ": largest " << largest << ", last "
+               << last << " m/s");
+      CHECK(last <= (route == ViscousSolve::split ? 1e-4 : 1e-6));
+    }
 }
 
 TEST_CASE("liquid rests in a sphere", "[long]") {

@@ -24,16 +24,17 @@ void measure_drops(const Domain<Dim>& domain, const Fluids& fluids, const State<
 }
 
 template <int Dim>
-std::vector<DropPoint> points_of(const Drops<Dim>& drops) {
+std::optional<std::vector<DropPoint>> drop_points(const Setup<Dim>& setup, const State<Dim>& state) {
+  if (!setup.volume_meets_void()) return {};
   std::vector<DropPoint> points;
-  for (const Drop<Dim>& d : drops.list)
+  for (const Drop<Dim>& d : state.drops.list)
     points.push_back({extend<Dim>(d.place), extend<Dim>(d.velocity), radius_of_drop<Dim>(d.volume), d.id});
   return points;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                   \
   template void measure_drops<D>(const Domain<D>&, const Fluids&, const State<D>&, StepStats&); \
-  template std::vector<DropPoint> points_of<D>(const Drops<D>&);
+  template std::optional<std::vector<DropPoint>> drop_points<D>(const Setup<D>&, const State<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -1,6 +1,8 @@
 #pragma once
 // Drops in the statistics, and as points for frames.
-#include "coupling/state/fluids.h"
+#include <optional>
+
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 
 namespace seiche {
@@ -9,8 +11,8 @@ namespace seiche {
 template <int Dim>
 void measure_drops(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, StepStats& stats);
 
-// This rank's drops. In 2D z = 0.
+// This rank's drops. In 2D z = 0. Empty if the scene makes none.
 template <int Dim>
-std::vector<DropPoint> points_of(const Drops<Dim>& drops);
+std::optional<std::vector<DropPoint>> drop_points(const Setup<Dim>& setup, const State<Dim>& state);
 
 }  // namespace seiche

@@ -8,6 +8,7 @@
 #include "coupling/solve/viscous_problem.h"
 #include "coupling/state/setup.h"
 #include "grid/loops.h"
+#include "levelset/extrapolate.h"
 
 namespace seiche {
 namespace {
@@ -65,6 +66,34 @@ void add_pressure(const CoupledInput<Dim>& in, const CoupledSolution<Dim>& r, do
   fill_velocity_ghosts(layout, in.liquid.halo, in.setup.domain.sides, u);
 }
 
+// Faces beyond the surface that only follow the stress (viscosity.cpp) take the velocity of those beside them that feel
+// the pressure. With weight and no pressure they would fall, and pull the surface down. Ghosts filled. Collective.
+template <int Dim>
+FaceField<Dim> with_followers(const CoupledInput<Dim>& in, const PressureRows<Dim>& rows, FaceField<Dim> u) {
+  constexpr int layers = 2;
+  if (in.liquid.has_gas()) return u;
+  const Layout<Dim>& layout = in.liquid.layout;
+  for (int a = 0; a < Dim; ++a) {
+    const auto is_open = [&](Site f) { return in.liquid.faces.is_unknown(a, f) && in.liquid.faces.open.at(a, f) > 0; };
+    FieldValues<double> filled = u[a];
+    FieldValues<char> known(std::size_t(layout.size()));
+    for_each_site(layout, layout.faces(a),
+                  [&](Site f) { known[f] = is_open(f) && rows.touch_pressure(f - layout.stride(a), f); });
+    extrapolate(layout, in.liquid.halo, layout.faces(a), {layers, 0}, filled, known);
+    for_each_site(layout, layout.faces(a), [&](Site f) {
+      if (known[f] > 1 && is_open(f)) u.at(a, f) = filled[f];
+    });
+  }
+  fill_velocity_ghosts(layout, in.liquid.halo, in.setup.domain.sides, u);
+  return u;
+}
+
+// u*, on those faces with the pressure of the last step. Collective.
+template <int Dim>
+FaceField<Dim> with_pressed_followers(const CoupledInput<Dim>& in, const PressureRows<Dim>& rows) {
+  return shifted(in, with_followers(in, rows, shifted(in, in.u_star, -in.liquid.dt)), in.liquid.dt);
+}
+
 template <int Dim>
 ProjectionInput<Dim> with_faces(const ProjectionInput<Dim>& p, const FaceGeometry<Dim>& faces) {
   return {p.layout, p.halo, p.ranks, p.phi, faces, p.density, p.dt, p.separation, p.gas_density, nullptr, p.air};
@@ -115,7 +144,7 @@ SplitViscosity<Dim>::SplitViscosity(const CoupledInput<Dim>& in, const SolidCoup
     : in_(in),
       faces_(without_side_pressures(in.liquid.faces)),
       unpressed_(with_faces(in.liquid, faces_)),
-      pressed_(shifted(in, in.u_star, -in.liquid.dt)),
+      pressed_(with_followers(in, r.rows, shifted(in, in.u_star, -in.liquid.dt))),
       viscous_(in.setup.domain, in.setup.solids, unpressed_, r.rows, in.geometry, in.state, coupling, *in.viscosity,
                pressed_) {
   add_wall_flux(in, viscous_);
@@ -173,8 +202,9 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
                           CoupledSolution<Dim>& r) {
   const Setup<Dim>& s = in.setup;
   const double dt = in.liquid.dt;
+  const FaceField<Dim> u_star = with_pressed_followers(in, r.rows);
   ViscousStep<Dim> viscous(s.domain, s.solids, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity,
-                           in.u_star);
+                           u_star);
   add_wall_flux(in, viscous);
   const BlockColumns none;
   SaddleSolver solver = make_solver(in, liquid, viscous.system(), viscous.system().G, viscous.J());
@@ -184,7 +214,7 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
     return *alone;
   };
   refuse_impossible_motion(in, liquid, coupling, solver.sensed_components(), r);
-  Vector u = viscous.gather(in.u_star), p = guessed_pressure(in, r.rows);
+  Vector u = viscous.gather(u_star), p = guessed_pressure(in, r.rows);
   for (double& x : p) x *= -dt;
   ViscousProblem<Dim> problem(coupling, viscous, {solver, make_alone}, s.domain.layout.geometry().face_area(),
                               liquid.closed, u, p, s.domain.ranks);
@@ -192,7 +222,7 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   refuse_unbalanced_chambers(in, liquid, solver.sensed_components(), r);
   for (double& x : p) x /= -dt;
   set_pressure(in, p, r);
-  FaceField<Dim> solved = in.u_star;
+  FaceField<Dim> solved = u_star;
   viscous.scatter(u, solved);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, solved);
   if (!r.failure.empty()) return;

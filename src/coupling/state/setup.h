@@ -36,6 +36,8 @@ struct Setup {
   std::vector<Sponge> sponges;
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
+  bool stays_full = false;                           // liquid fills the domain, and nothing lets air in
+  bool moving_sources = false;                       // of those whose shapes are kept full, or empty
   std::shared_ptr<const OpenParts<Dim>> open_parts;  // if tracks_volume() beside solids, none of which moves; else null
 
   // `blocks`: owned cells of each rank; empty: of equal size.
@@ -46,9 +48,14 @@ struct Setup {
   bool tracks_volume() const {
     if (fluids.liquid.volume != VolumeKeeping::automatic) return fluids.liquid.volume == VolumeKeeping::in_cells;
     if (fluids.has_prescribed_flow()) return sources.empty() && drains.empty() && !domain.sides.any_inflow();
-    const auto is_thin = [](const Body<Dim>& body) { return body.is_thin(); };
-    return fluids.has_gas() && !fluids.has_surface_tension() &&
-           std::none_of(solids.bodies.begin(), solids.bodies.end(), is_thin);
+    const auto asks_for_shift = [&](const Body<Dim>& b) { return b.is_thin() || (b.deforms() && !fluids.has_gas()); };
+    return may_have_fluid() && !stays_full && !moving_sources && !(fluids.has_gas() && fluids.has_surface_tension()) &&
+           std::none_of(solids.bodies.begin(), solids.bodies.end(), asks_for_shift);
+  }
+  // True if liquid or gas is there at the start, or sides and sources may bring it.
+  bool may_have_fluid() const {
+    return !fluids.liquid.regions.empty() || !sources.empty() || !feeds.empty() || domain.sides.any_passes() ||
+           fluids.gas.present;
   }
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }

@@ -2,6 +2,7 @@
 // Interface of a simulation that advances a scene, for the program, the tests and other programs.
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ struct StepStats {
   double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
   double volume_spilled = 0;       // handed to neighbouring cells since the start, m^3
   double volume_drifting = 0;      // in cells away from the level set's liquid, m^3
+  double volume_since_solve = 0;   // that sides and feeds brought after the last solve; in liquid_volume, m^3
   std::int64_t drops = 0;          // that fly as points
   double volume_drops = 0;         // in them, m^3
   double volume_left_out = 0;      // of drops that were not kept (liquid.spray), since the start, m^3
@@ -157,7 +159,8 @@ class Simulation {
   // Owned cells of a field: surface (continued into solids), closed_surface (without what lies in them), vel, pressure,
   // viscosity, vorticity.
   virtual FrameField frame_field(const std::string& name) const = 0;
-  virtual std::vector<DropPoint> drops() const { return {}; }  // of this rank, by id
+  // Drops of this rank, by id. Empty if the scene makes none.
+  virtual std::optional<std::vector<DropPoint>> drops() const { return {}; }
   // The values of a field without copying them: surface (m), pressure (Pa) at cells; velocity_x, velocity_y, velocity_z
   // (m/s) at low faces, with the high face of the last cell along their axis. They stay as they are when steps go on.
   virtual FieldView view(const std::string& name) = 0;

@@ -24,9 +24,9 @@
 #include "coupling/step/solve_notes.h"
 #include "coupling/step/step.h"
 #include "coupling/step/step_size.h"
+#include "coupling/step/volume_measures.h"
 #include "coupling/thin/liquid_beside.h"
 #include "coupling/transport/dry_sources.h"
-#include "coupling/transport/tracked_volume.h"
 #include "coupling/transport/viscous_transport.h"
 
 namespace seiche {
@@ -57,14 +57,14 @@ class FlowSimulation : public Simulation {
   StepStats stats() const override { return stats_; }
   std::vector<SolidState> solids() const override { return solids_; }
   std::vector<JointReport> joints() const override { return report_joints(setup_->solids.joints, state_); }
-  double expected_volume() const override { return state_.expected_volume; }
+  double expected_volume() const override { return state_.expected_volume + stats_.volume_since_solve; }
   ProbeSample probe(std::size_t k) const override {
     return measure_probe(*setup_, state_, geometry_on_grid(), solids_, setup_->scene->probes.at(k), probe_fields_);
   }
   FrameField frame_field(const std::string& name) const override {
     return make_frame_field(setup_->domain, setup_->fluids, state_, geometry_on_grid().psi, name);
   }
-  std::vector<DropPoint> drops() const override { return points_of(state_.drops); }
+  std::optional<std::vector<DropPoint>> drops() const override { return drop_points(*setup_, state_); }
   FieldView view(const std::string& name) override {
     FieldView view = make_field_view(setup_->domain, state_, name);
     if (view.owner) return view;
@@ -324,7 +324,7 @@ class FlowSimulation : public Simulation {
     stats.time = state.time;
     stats.dt = state.dt_now;
     measure_fluids(setup_->domain, setup_->fluids, state, geometry.psi, stats);
-    if (setup_->tracks_volume()) measure_tracked(setup_->domain, setup_->fluids, state, stats);
+    if (setup_->tracks_volume()) measure_volumes(*setup_, geometry, state, stats);
     if (setup_->volume_meets_void()) measure_drops(setup_->domain, setup_->fluids, state, stats);
     stats.liquid_volume -= volume_beyond(setup_->domain, setup_->solids, geometry, state.phi);
     stats.kinetic_energy += kinetic_energy_beside(setup_->domain, setup_->fluids, setup_->solids, geometry, state);

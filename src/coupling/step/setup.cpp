@@ -87,6 +87,22 @@ ShapeSpec open_to_sides(ShapeSpec shape, const DomainSpec& domain) {
 }
 
 template <int Dim>
+std::vector<std::unique_ptr<ShapeField<Dim>>> regions_of_liquid(const Setup<Dim>& s) {
+  std::vector<std::unique_ptr<ShapeField<Dim>>> shapes;
+  for (const auto& region : s.fluids.liquid.regions)
+    shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene->domain), {s.domain.layout.h(), nullptr}));
+  return shapes;
+}
+
+// Collective.
+template <int Dim>
+bool will_stay_full(const Setup<Dim>& s) {
+  const bool sinks = s.fluids.gravity.largest(0, s.scene->time.end) > 0;
+  if (s.fluids.gas.present || s.fluids.liquid.separates || !s.drains.empty() || !s.feeds.empty()) return false;
+  return !(sinks && s.domain.sides.any_passes()) && fill_domain(s.domain, regions_of_liquid(s));
+}
+
+template <int Dim>
 void make_sources(const Scene& scene, Setup<Dim>& setup) {
   const auto make = [&](const std::vector<LiquidSourceSpec>& specs, const char* list, double sign,
                         std::vector<Source<Dim>>& kept) {
@@ -184,13 +200,13 @@ namespace {
 
 // Throws Error(bad_input).
 template <int Dim>
-void refuse_thin(const Solids<Dim>& solids) {
+void refuse_thin(const Solids<Dim>& solids, const std::string& does_not_work_with, const std::string& remedy) {
   for (const Body<Dim>& body : solids.bodies)
     if (body.is_thin())
       throw Error(ExitCode::bad_input,
-                  fmt::format("{}: solid '{}' is thinner than a cell, which does not work with liquid.volume = "
-                              "\"cells\" yet; use \"shift\", or smaller cells",
-                              body.spec().shape.where, body.spec().name));
+                  fmt::format("{}: solid '{}' is thinner than a cell, which does not work with {} yet; {}, or use "
+                              "smaller cells",
+                              body.spec().shape.where, body.spec().name, does_not_work_with, remedy));
 }
 
 }  // namespace
@@ -211,8 +227,12 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
   make_sources(from, *this);
   fluids.rheology.yield_stress *= perturbation.yield_stress;
   features = Features(*this);
+  stays_full = will_stay_full(*this);
+  const auto moves = [](const Source<Dim>& source) { return source.spec.motion || source.spec.attached_to; };
+  moving_sources = std::ranges::any_of(sources, moves) || std::ranges::any_of(drains, moves);
+  if (!fluids.liquid.spray) refuse_thin(solids, "liquid.spray = false", "remove spray");
   if (!tracks_volume() || solids.bodies.empty()) return;
-  refuse_thin(solids);
+  refuse_thin(solids, "liquid.volume = \"cells\"", "set \"shift\"");
   if (any_moves(solids) || fluids.liquid.separates) return;
   const StepGeometry<Dim> still = solids.geometry.measure(std::vector<Placement>(solids.bodies.size()), 0);
   open_parts =
@@ -244,9 +264,7 @@ void check_fixed_step(const Domain<Dim>& domain, const Fluids& fluids, const Sol
 
 template <int Dim>
 State<Dim> initial_state(const Setup<Dim>& s) {
-  std::vector<std::unique_ptr<ShapeField<Dim>>> shapes;
-  for (const auto& region : s.fluids.liquid.regions)
-    shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene->domain), {s.domain.layout.h(), nullptr}));
+  const std::vector<std::unique_ptr<ShapeField<Dim>>> shapes = regions_of_liquid(s);
   State<Dim> state;
   state.pressure = CellField<Dim>(s.domain.layout);
   if (s.fluids.liquid.separates) state.separation = Separation<Dim>(s.domain.layout);

@@ -98,12 +98,22 @@ std::optional<CellField<Dim>> transport_and_book(const Setup<Dim>& s, const Stat
                                                  State<Dim>& next) {
   Brought<Dim> brought =
       transport_surface(s, at, std::move(path), from, span, PlacedSources<Dim>(s, next, from + span), closed, next.phi);
-  if (!s.tracks_volume()) next.expected_volume += brought.volume;
+  if (s.tracks_volume()) return std::move(brought.share);
+  next.expected_volume += brought.volume;
   next.work.sides += s.fluids.density() * brought.kinetic;
   return std::move(brought.share);
 }
 
-// Carries the volumes of cells. Where initial velocities need not fit, the first step takes those that its trial found;
+// to + (1 - part) (from - to) on all faces.
+template <int Dim>
+void blend(const Layout<Dim>& layout, const FaceField<Dim>& from, double part, FaceField<Dim>& to) {
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(layout, layout.padded(), [&](Site f) {
+      if (from.at(a, f) != to.at(a, f)) to.at(a, f) += (1 - part) * (from.at(a, f) - to.at(a, f));
+    });
+}
+
+// Carries the volumes of cells. Where initial velocities need not fit, the first step also asks what its trial found;
 // the trial itself carries nothing. Empty, or what fails.
 template <int Dim>
 std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u, double span,
@@ -115,24 +125,36 @@ std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const F
   const double from = before.time - before.since_solve;
   const PlacedSources<Dim> sources(s, known, known.time - known.since_solve);
   const CellValues brought = brought_by_feeds(s.domain, sources.feeds(), FedLiquid<Dim>(known), from, from + span);
-  std::optional<FaceField<Dim>> of_trial;
-  if (sets_off) of_trial = known.exterior->volume_velocity(s.domain, s.fluids, known, span);
-  return carry_liquid(s.domain, of_trial ? *of_trial : u, known.gap_flow, s.perturbation.surface_advection * span,
-                      {s.divergence(), room, next.room()}, brought, before, next);
+  const LedgerRules<Dim> ledger(s.divergence(), room, next.room());
+  const std::optional<FaceField<Dim>> through = flow_through_faces(s.domain, room, before.gap_flow, u);
+  const double carried = s.perturbation.surface_advection * span;
+  if (!sets_off) return carry_liquid(s.domain, u, through ? *through : u, carried, ledger, brought, before, next);
+  FaceField<Dim> trial = known.exterior->volume_velocity(s.domain, s.fluids, known, span);
+  std::optional<FaceField<Dim>> trial_through = flow_through_faces(s.domain, room, known.gap_flow, trial);
+  const double part = share_of_trial(s.domain, ledger, before.liquid, span, through ? *through : u,
+                                     trial_through ? *trial_through : trial);
+  blend(s.domain.layout, u, part, trial);
+  if (through) blend(s.domain.layout, *through, part, *trial_through);
+  return carry_liquid(s.domain, trial, trial_through ? *trial_through : trial, carried, ledger, brought, before, next);
 }
 
-// Volumes of cells from their last time to that of the solve. Empty, or what fails.
+// Volumes of cells from their last time to that of the solve. `by_sources`: becomes the share of each that sources
+// brought, if any are open. Empty, or what fails.
 template <int Dim>
 std::string move_volumes(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u, const StepTimes& times,
-                         const StepGeometry<Dim>& geometry, State<Dim>& next) {
+                         const StepGeometry<Dim>& geometry, State<Dim>& next,
+                         std::optional<CellField<Dim>>& by_sources) {
   if (!s.tracks_volume()) return {};
   const double from = times.start - before.since_solve, until = times.start + times.lead;
   const double span = before.since_solve + times.lead;
   std::optional<FaceField<Dim>> of_both;
   if (s.fluids.has_gas()) of_both = before.exterior->volume_velocity(s.domain, s.fluids, before, span);
   std::string fault = carry_volumes(s, before, of_both ? *of_both : u, span, next);
-  next.expected_volume += add_source_shares(s.domain, PlacedSources<Dim>(s, next, until).openings(), geometry.psi, from,
-                                            until, next.liquid);
+  Brought<Dim> brought = add_source_shares(s.domain, PlacedSources<Dim>(s, next, until).openings(), geometry.psi,
+                                           before.now->u, from, until, next.liquid);
+  next.expected_volume += brought.volume;
+  next.work.sides += s.fluids.density() * brought.kinetic;
+  by_sources = std::move(brought.share);
   return fault;
 }
 
@@ -150,8 +172,10 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, bent, phi);
-  moved.failure = move_volumes(s, before, u, times, moved.geometry, moved.state);
-  moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, closed, moved.state);
+  moved.failure = move_volumes(s, before, u, times, moved.geometry, moved.state, moved.brought);
+  std::optional<CellField<Dim>> by_level_set =
+      transport_and_book(s, before, std::move(u), times.start, times.lead, closed, moved.state);
+  if (!s.tracks_volume()) moved.brought = std::move(by_level_set);
   make_distance(s.domain, s.fluids, s.solids, s.scene->time, bent, phi);
   const bool is_trial = before.step == 0 && s.volume_sets_off() && !before.trial;
   if (is_trial && (s.domain.sides.any_passes() || s.room_changes()))

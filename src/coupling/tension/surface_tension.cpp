@@ -116,7 +116,7 @@ SurfaceTension<Dim> surface_tension(const Domain<Dim>& domain, const Fluids& flu
   domain.halo.fill_ghosts(r.jump);
   agree_in_slivers(domain, fluids, phi, crossed, r.jump);
   filter_for_step(domain, fluids, phi, crossed, dt, r.jump);
-  balance_closed_pieces(domain, g.faces, phi, crossed, r.jump);
+  balance_closed_pieces(domain, fluids, g.faces, phi, crossed, r.jump);
   const double sigma = perturbation.surface_tension * fluids.liquid.surface_tension;
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) { r.jump.at(a, f) *= sigma; });

@@ -1,10 +1,12 @@
 #include "coupling/tension/tension_balance.h"
 
+#include <cmath>
 #include <cstring>
 #include <map>
 
 #include "coupling/tension/surface_graph.h"
 #include "fluid/boundary/domain.h"
+#include "fluid/pressure/pressure.h"
 #include "linalg/core/dense_factors.h"
 
 namespace seiche {
@@ -43,53 +45,84 @@ CellField<Dim, std::int64_t> label_pieces(const Domain<Dim>& domain, const Surfa
   return label;
 }
 
-// Sums over a piece: force_a = sum of +-kappa over the links along a, response_ab = sum of +-n_b. The sign is + if the
-// link runs from liquid to air along a.
+constexpr int turns(int dim) {
+  return dim == 2 ? 1 : 3;
+}
+// Three of force or two, then three of torque or one.
 template <int Dim>
-struct Piece {
-  double held = 0;  // number of cells next to a wall, solid or open side
-  Vec<Dim> force = Vec<Dim>::Zero();
-  Eigen::Matrix<double, Dim, Dim> response = Eigen::Matrix<double, Dim, Dim>::Zero();
+using Motions = Eigen::Matrix<double, Dim + turns(Dim), 1>;
 
-  void add(const Piece& other) {
-    held += other.held;
-    force += other.force;
-    response += other.response;
-  }
-  // c with response c = force; zero if the piece is held or the system has no finite solution.
-  Vec<Dim> shift() const {
-    if (held > 0) return Vec<Dim>::Zero();
-    const Vec<Dim> c = least_squares(response, force);
-    return c.allFinite() ? c : Vec<Dim>::Zero();
+// Motions of a link along `axis`, `r` cells from a piece's centre: unit vector, then its moments about that centre.
+template <int Dim>
+Motions<Dim> motions_at(int axis, const Vec<Dim>& r) {
+  const Vec3 moment = extend<Dim>(r).cross(Vec3::Unit(axis));
+  Motions<Dim> m = Motions<Dim>::Unit(axis);
+  m.template tail<turns(Dim)>() = moment.template tail<turns(Dim)>();
+  return m;
+}
+
+// Cells and links of a piece. `places`: sum of the links' places from the labelling cell, cells.
+template <int Dim>
+struct Extent {
+  double held = 0;    // number of cells next to a wall, solid or open side
+  double astray = 0;  // number of links too far for a piece that ends within half a period
+  double links = 0;
+  Vec<Dim> places = Vec<Dim>::Zero();
+
+  Vec<Dim> centre() const { return links > 0 ? Vec<Dim>(places / links) : Vec<Dim>::Zero(); }
+  static constexpr int count = 3 + Dim;
+  void save(double* v) const { v[0] = held, v[1] = astray, v[2] = links, std::copy_n(places.data(), Dim, v + 3); }
+  void add(const double* v) {
+    held += v[0], astray += v[1], links += v[2];
+    for (int a = 0; a < Dim; ++a) places[a] += v[3 + a];
   }
 };
 
+// Sums over a piece's links: force = sum of +-kappa g, response = sum of +-g m', for the motions g of a link and the
+// corrections m. The sign is + if the link runs from liquid to air along its axis.
 template <int Dim>
-using Pieces = std::map<std::int64_t, Piece<Dim>>;
+struct Balance {
+  static constexpr int size = Dim + turns(Dim), count = size + size * size;
+  Motions<Dim> force = Motions<Dim>::Zero();
+  Eigen::Matrix<double, size, size> response = Eigen::Matrix<double, size, size>::Zero();
+
+  void save(double* v) const {
+    std::copy_n(force.data(), size, v);
+    std::copy_n(response.data(), size * size, v + size);
+  }
+  void add(const double* v) {
+    for (int k = 0; k < size; ++k) force[k] += v[k];
+    for (int k = 0; k < size * size; ++k) response.data()[k] += v[size + k];
+  }
+  // c with response c = force; zero if the system has no finite solution.
+  Motions<Dim> shift(bool may_turn) const {
+    const int rows = may_turn ? size : Dim;
+    Motions<Dim> c = Motions<Dim>::Zero();
+    c.head(rows) = least_squares(response.topLeftCorner(rows, rows), force.head(rows));
+    return c.allFinite() ? c : Motions<Dim>::Zero();
+  }
+};
+
+template <class Sums>
+using Pieces = std::map<std::int64_t, Sums>;
 
 // Sums over all ranks, in the order of the ranks. Collective.
-template <int Dim>
-Pieces<Dim> sum_over_ranks(const Pieces<Dim>& mine, const Communicator& ranks) {
+template <class Sums>
+Pieces<Sums> sum_over_ranks(const Pieces<Sums>& mine, const Communicator& ranks) {
   std::string bytes;
+  std::array<double, Sums::count> values;
   for (const auto& [label, piece] : mine) {
-    std::array<double, 1 + Dim + Dim * Dim> values{piece.held};
-    std::copy_n(piece.force.data(), Dim, values.begin() + 1);
-    std::copy_n(piece.response.data(), Dim * Dim, values.begin() + 1 + Dim);
+    piece.save(values.data());
     bytes.append(reinterpret_cast<const char*>(&label), sizeof label);
     bytes.append(reinterpret_cast<const char*>(values.data()), sizeof values);
   }
-  Pieces<Dim> all;
+  Pieces<Sums> all;
   for (const std::string& part : ranks.all_gather(bytes)) {
-    std::array<double, 1 + Dim + Dim * Dim> values;
     std::int64_t label;
     for (std::size_t k = 0; k < part.size(); k += sizeof label + sizeof values) {
       std::memcpy(&label, part.data() + k, sizeof label);
       std::memcpy(values.data(), part.data() + k + sizeof label, sizeof values);
-      Piece<Dim> piece;
-      piece.held = values[0];
-      std::copy_n(values.begin() + 1, Dim, piece.force.data());
-      std::copy_n(values.begin() + 1 + Dim, Dim * Dim, piece.response.data());
-      all[label].add(piece);
+      all[label].add(values.data());
     }
   }
   return all;
@@ -118,37 +151,115 @@ bool is_held(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, Site cel
   return held;
 }
 
+// Cells from a piece's labelling cell to a cell, the short way round periodic axes.
+template <int Dim>
+IVec<Dim> from_label(const Layout<Dim>& layout, Site cell, std::int64_t label) {
+  IVec<Dim> d = layout.index(cell);
+  for (int a = 0; a < Dim; ++a) {
+    const int n = layout.geometry().cells[a];
+    d[a] -= int(label % n);
+    label /= n;
+    if (layout.geometry().periodic[a]) d[a] -= n * int(std::floor(double(d[a]) / n + 0.5));
+  }
+  return d;
+}
+
+// True if a link this far from the labelling cell may belong to a piece that goes round a periodic axis.
+template <int Dim>
+bool is_astray(const Layout<Dim>& layout, const IVec<Dim>& d) {
+  bool astray = false;
+  for (int a = 0; a < Dim; ++a)
+    astray = astray || (layout.geometry().periodic[a] && 2 * std::abs(d[a]) >= layout.geometry().cells[a] - 4);
+  return astray;
+}
+
+// The surface's closed pieces, and their corrections.
+template <int Dim>
+class ClosedPieces {
+ public:
+  ClosedPieces(const Domain<Dim>& domain, const Fluids& fluids, const FaceGeometry<Dim>& faces,
+               const CellField<Dim>& phi, const FaceField<Dim, char>& crossed)
+      : domain_(domain),
+        gas_(fluids.gas_density() / fluids.density()),
+        phi_(phi),
+        crossed_(crossed),
+        graph_(domain, crossed),
+        label_(label_pieces(domain, graph_)) {
+    Pieces<Extent<Dim>> mine;
+    for (Site c : graph_.cells()) mine[label_[c]].held += is_held(domain.layout, faces, c);
+    for_each_link([&](int a, Site f) {
+      Extent<Dim>& extent = mine[label_[f]];
+      extent.places += place(a, f);
+      ++extent.links;
+      extent.astray += is_astray<Dim>(domain_.layout, from_label<Dim>(domain_.layout, f, label_[f]));
+    });
+    extents_ = sum_over_ranks(mine, domain.ranks);
+  }
+
+  void balance(FaceField<Dim>& kappa) const {
+    Pieces<Balance<Dim>> mine;
+    for_each_free_link([&](int a, Site f, const Extent<Dim>& extent) {
+      Balance<Dim>& sums = mine[label_[f]];
+      const Motions<Dim> g = sign(f) * motions_at<Dim>(a, place(a, f) - extent.centre());
+      sums.force += kappa.at(a, f) * g;
+      sums.response += g * correction(a, f, extent).transpose();
+    });
+    std::map<std::int64_t, Motions<Dim>> shift;
+    for (const auto& [piece, sums] : sum_over_ranks(mine, domain_.ranks))
+      if (mine.count(piece)) shift[piece] = sums.shift(extents_.at(piece).astray == 0);
+    for_each_free_link([&](int a, Site f, const Extent<Dim>& extent) {
+      kappa.at(a, f) -= shift.at(label_[f]).dot(correction(a, f, extent));
+    });
+  }
+
+ private:
+  // Visits each link once: at the cell above it, if this rank owns that cell.
+  template <class Visit>
+  void for_each_link(const Visit& visit) const {
+    for (Site c : graph_.cells())
+      for (int a = 0; a < Dim; ++a)
+        if (crossed_.at(a, c)) visit(a, c);
+  }
+  template <class Visit>
+  void for_each_free_link(const Visit& visit) const {
+    for_each_link([&](int a, Site f) {
+      const Extent<Dim>& extent = extents_.at(label_[f]);
+      if (extent.held == 0) visit(a, f, extent);
+    });
+  }
+  double sign(Site f) const { return phi_[f] < 0 ? -1 : 1; }
+  // The middle of a link from the labelling cell's centre, cells.
+  Vec<Dim> place(int axis, Site f) const {
+    return from_label<Dim>(domain_.layout, f, label_[f]).template cast<double>() - 0.5 * Vec<Dim>::Unit(axis);
+  }
+  // The normal, and the jumps that turn the links' fluid like a rigid body.
+  Motions<Dim> correction(int axis, Site f, const Extent<Dim>& extent) const {
+    const double theta = liquid_part(phi_[f - domain_.layout.stride(axis)], phi_[f]);
+    Motions<Dim> m = (theta + (1 - theta) * gas_) * sign(f) * motions_at<Dim>(axis, place(axis, f) - extent.centre());
+    m.template head<Dim>() = normal_at(domain_.layout, phi_, axis, f);
+    return m;
+  }
+
+  const Domain<Dim>& domain_;
+  double gas_;  // density over the liquid's
+  const CellField<Dim>& phi_;
+  const FaceField<Dim, char>& crossed_;
+  SurfaceGraph<Dim> graph_;
+  CellField<Dim, std::int64_t> label_;
+  Pieces<Extent<Dim>> extents_;
+};
+
 }  // namespace
 
 template <int Dim>
-void balance_closed_pieces(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const CellField<Dim>& phi,
-                           const FaceField<Dim, char>& crossed, FaceField<Dim>& kappa) {
-  const SurfaceGraph<Dim> graph(domain, crossed);
-  const CellField<Dim, std::int64_t> label = label_pieces(domain, graph);
-  Pieces<Dim> mine;
-  for (Site c : graph.cells()) mine[label[c]].held += is_held(domain.layout, faces, c);
-  // Visits each link once: at the cell above it, if this rank owns that cell.
-  const auto for_each_link = [&](const auto& visit) {
-    for (Site c : graph.cells())
-      for (int a = 0; a < Dim; ++a)
-        if (crossed.at(a, c)) visit(a, c, normal_at(domain.layout, phi, a, c));
-  };
-  for_each_link([&](int a, Site f, const Vec<Dim>& n) {
-    Piece<Dim>& piece = mine[label[f]];
-    const double sign = phi[f] < 0 ? -1 : 1;
-    piece.force[a] += sign * kappa.at(a, f);
-    piece.response.row(a) += sign * n.transpose();
-  });
-  const Pieces<Dim> all = sum_over_ranks(mine, domain.ranks);
-  std::map<std::int64_t, Vec<Dim>> shift;
-  for (const auto& [piece, sums] : all)
-    if (mine.count(piece)) shift[piece] = sums.shift();
-  for_each_link([&](int a, Site f, const Vec<Dim>& n) { kappa.at(a, f) -= shift.at(label[f]).dot(n); });
+void balance_closed_pieces(const Domain<Dim>& domain, const Fluids& fluids, const FaceGeometry<Dim>& faces,
+                           const CellField<Dim>& phi, const FaceField<Dim, char>& crossed, FaceField<Dim>& kappa) {
+  ClosedPieces<Dim>(domain, fluids, faces, phi, crossed).balance(kappa);
 }
 
-template void balance_closed_pieces<2>(const Domain<2>&, const FaceGeometry<2>&, const CellField<2>&,
+template void balance_closed_pieces<2>(const Domain<2>&, const Fluids&, const FaceGeometry<2>&, const CellField<2>&,
                                        const FaceField<2, char>&, FaceField<2>&);
-template void balance_closed_pieces<3>(const Domain<3>&, const FaceGeometry<3>&, const CellField<3>&,
+template void balance_closed_pieces<3>(const Domain<3>&, const Fluids&, const FaceGeometry<3>&, const CellField<3>&,
                                        const FaceField<3, char>&, FaceField<3>&);
 
 }  // namespace seiche

@@ -130,9 +130,21 @@ CellField<Dim> initial_surface(const Domain<Dim>& domain, const Fluids& fluids, 
   return phi;
 }
 
+template <int Dim>
+bool fill_domain(const Domain<Dim>& domain, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
+  const Regions<Dim> distance(domain.band(), shapes);
+  bool dry = false;
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site, const IVec<Dim>& i) {
+    dry = dry || !(distance(domain.layout.position(i, cell_offset<Dim>())) < 0);
+  });
+  return !domain.ranks.any(dry);
+}
+
 template CellField<2> initial_surface<2>(const Domain<2>&, const Fluids&, const Solids<2>&, const StepGeometry<2>&,
                                          const std::vector<std::unique_ptr<ShapeField<2>>>&);
 template CellField<3> initial_surface<3>(const Domain<3>&, const Fluids&, const Solids<3>&, const StepGeometry<3>&,
                                          const std::vector<std::unique_ptr<ShapeField<3>>>&);
+template bool fill_domain<2>(const Domain<2>&, const std::vector<std::unique_ptr<ShapeField<2>>>&);
+template bool fill_domain<3>(const Domain<3>&, const std::vector<std::unique_ptr<ShapeField<3>>>&);
 
 }  // namespace seiche

@@ -14,4 +14,8 @@ CellField<Dim> initial_surface(const Domain<Dim>& domain, const Fluids& fluids, 
                                const StepGeometry<Dim>& geometry,
                                const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes);
 
+// True if all cells' centres lie in one of the shapes. Collective.
+template <int Dim>
+bool fill_domain(const Domain<Dim>& domain, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes);
+
 }  // namespace seiche

@@ -34,6 +34,22 @@ double distance_to_brought(const Layout<Dim>& layout, const Source<Dim>& source,
   return distance;
 }
 
+// |v|^2/2 of what a source brings into a cell; 0 where the velocity's formula is not finite.
+template <int Dim>
+double half_square_of(const Layout<Dim>& layout, const Source<Dim>& source, const OpenTime& open,
+                      const IVec<Dim>& cell) {
+  const Vec3 v = source.velocity(extend<Dim>(layout.position(cell, cell_offset<Dim>())), open.begin);
+  return truncate<Dim>(v).allFinite() ? 0.5 * truncate<Dim>(v).squaredNorm() : 0;
+}
+
+// |u|^2/2 in a cell.
+template <int Dim>
+double half_square_at(const Layout<Dim>& layout, const FaceField<Dim>& u, Site c) {
+  double square = 0;
+  for (int a = 0; a < Dim; ++a) square += std::pow(0.5 * (u.at(a, c) + u.at(a, c + layout.stride(a))), 2);
+  return 0.5 * square;
+}
+
 // Joins phi with the liquid of one source. Sets |v|^2/2 of its velocity where it may bring liquid, unless it is null.
 // Liquid that reaches no cell's centre is left out: phi would not show it, and its distance beside a film would bend
 // phi so that cells lose liquid. Collective.
@@ -50,10 +66,7 @@ void join(const Domain<Dim>& domain, const Source<Dim>& source, const OpenTime& 
   if (!domain.ranks.any(reaches)) return;
   for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     phi[c] = std::min(phi[c], distance[c]);
-    if (!half_square || distance[c] > near) return;
-    const Vec<Dim> v =
-        truncate<Dim>(source.velocity(extend<Dim>(domain.layout.position(i, cell_offset<Dim>())), open.begin));
-    if (v.allFinite()) (*half_square)[c] = 0.5 * v.squaredNorm();
+    if (half_square && distance[c] <= near) (*half_square)[c] = half_square_of(domain.layout, source, open, i);
   });
 }
 
@@ -73,10 +86,7 @@ void cut_out(const Domain<Dim>& domain, const Source<Dim>& drain, const FaceFiel
   const double near = std::sqrt(double(Dim)) * l.h();
   for_each_site(l, l.cells(), [&](Site c) {
     phi[c] = std::max(phi[c], -distance[c]);
-    if (!half_square || distance[c] > near) return;
-    double square = 0;
-    for (int a = 0; a < Dim; ++a) square += std::pow(0.5 * (u->at(a, c) + u->at(a, c + l.stride(a))), 2);
-    (*half_square)[c] = 0.5 * square;
+    if (half_square && distance[c] <= near) (*half_square)[c] = half_square_at(l, *u, c);
   });
 }
 
@@ -151,29 +161,38 @@ Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, c
 }
 
 template <int Dim>
-double add_source_shares(const Domain<Dim>& domain, const Openings<Dim>& openings, const NodeField<Dim>& psi, double t0,
-                         double t1, CellField<Dim>& share) {
-  if (!any_open(openings, t0, t1)) return 0;
+Brought<Dim> add_source_shares(const Domain<Dim>& domain, const Openings<Dim>& openings, const NodeField<Dim>& psi,
+                               const FaceField<Dim>& u, double t0, double t1, CellField<Dim>& share) {
+  if (!any_open(openings, t0, t1)) return {};
   const Layout<Dim>& l = domain.layout;
-  double cells = 0;
+  double cells = 0, kinetic = 0;
+  CellField<Dim> brought(l);
   for (const Source<Dim>& source : openings.sources)
     if (const auto open = open_in_step(source.spec, t0, t1))
       for_each_index_in_order(l, l.cells(), [&](Site c, const IVec<Dim>& i) {
         const double within = share_within(l, source, *open, i);
         const double lacking = within > 0 ? std::max(0.0, within * open_share(l, psi, c) - share[c]) : 0;
+        if (lacking == 0) return;
         share[c] += lacking;
+        brought[c] += lacking;
         cells += lacking;
+        kinetic += lacking * half_square_of(l, source, *open, i);
       });
   for (const Source<Dim>& drain : openings.drains)
     if (open_in_step(drain.spec, t0, t1))
       for_each_index_in_order(l, l.cells(), [&](Site c, const IVec<Dim>& i) {
         const double within = share[c] > 0 ? share_within_shape(l, drain, i) : 0;
         const double beyond = within > 0 ? std::max(0.0, share[c] - (1 - within) * open_share(l, psi, c)) : 0;
+        if (beyond == 0) return;
         share[c] -= beyond;
         cells -= beyond;
+        kinetic -= beyond * half_square_at(l, u, c);
       });
   fill_share_ghosts(l, domain.halo, share);
-  return domain.ranks.global_sum(cells) * l.geometry().cell_volume();
+  domain.halo.fill_ghosts(brought);
+  std::array<double, 2> sums{cells, kinetic};
+  domain.ranks.global_sum(sums);
+  return {sums[0] * l.geometry().cell_volume(), sums[1] * l.geometry().cell_volume(), std::move(brought)};
 }
 
 template <int Dim>
@@ -240,8 +259,8 @@ double mass_at_face(const Layout<Dim>& l, const Fluids& fluids, const CellField<
                                   const CellField<D>*, int, Site);                                                    \
   template Brought<D> add_sources<D>(const Domain<D>&, const Solids<D>&, const Openings<D>&, const State<D>&, double, \
                                      double, CellField<D>&);                                                          \
-  template double add_source_shares<D>(const Domain<D>&, const Openings<D>&, const NodeField<D>&, double, double,     \
-                                       CellField<D>&);                                                                \
+  template Brought<D> add_source_shares<D>(const Domain<D>&, const Openings<D>&, const NodeField<D>&,                 \
+                                           const FaceField<D>&, double, double, CellField<D>&);                       \
   template void join_sources<D>(const Domain<D>&, const Openings<D>&, double, double, CellField<D>&);                 \
   template double share_within_shape<D>(const Layout<D>&, const Source<D>&, const IVec<D>&);                          \
   template std::vector<FaceImpulse> set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double,   \

@@ -41,11 +41,11 @@ Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, c
                          const State<Dim>& before, double t0, double t1, CellField<Dim>& phi);
 
 // The same for the shares of liquid in cells: fills them up to what lies within the sources, and empties them down to
-// what lies beyond the drains. psi: distance to the solids at nodes (m). Fills ghosts. Returns the volume brought,
-// m^Dim. Collective.
+// what lies beyond the drains, with the velocity u (m/s). psi: distance to the solids at nodes (m). Fills ghosts.
+// Collective.
 template <int Dim>
-double add_source_shares(const Domain<Dim>& domain, const Openings<Dim>& openings, const NodeField<Dim>& psi, double t0,
-                         double t1, CellField<Dim>& share);
+Brought<Dim> add_source_shares(const Domain<Dim>& domain, const Openings<Dim>& openings, const NodeField<Dim>& psi,
+                               const FaceField<Dim>& u, double t0, double t1, CellField<Dim>& share);
 
 // Joins phi at t1 with the liquid that sources keep from t0 to t1, without what lies in drains. Ghosts are not filled.
 // Collective.

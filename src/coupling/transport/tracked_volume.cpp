@@ -24,18 +24,58 @@ void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Di
   state.expected_volume = tracked_volume(domain, state);
 }
 
-namespace {
-
-// u (m/s), with what the solve gave the faces that are hardly open. Collective.
 template <int Dim>
-FaceField<Dim> flow_through_faces(const Domain<Dim>& domain, const GapFlow<Dim>& solved, FaceField<Dim> u) {
+std::optional<FaceField<Dim>> flow_through_faces(const Domain<Dim>& domain, const Room<Dim>& room,
+                                                 const GapFlow<Dim>& solved, const FaceField<Dim>& u) {
+  if (room.is_whole()) return {};
+  FaceField<Dim> through = u;
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (solved.u.at(a, f) != 0) u.at(a, f) = solved.u.at(a, f);
+      if (solved.u.at(a, f) != 0) through.at(a, f) = solved.u.at(a, f);
     });
-  domain.halo.fill_ghosts(u);
-  return u;
+  domain.halo.fill_ghosts(through);
+  return through;
 }
+
+namespace {
+
+// What a full cell would have too much of after `span`, K + dt/h sum +- w u - K', in cells.
+template <int Dim>
+double misfit(const Layout<Dim>& layout, const LedgerRules<Dim>& ledger, const FaceField<Dim>& u, double span, Site c) {
+  double net = 0;
+  for (int a = 0; a < Dim; ++a) {
+    const Site high = c + layout.stride(a);
+    net += ledger.room.through(a, c) * u.at(a, c) - ledger.room.through(a, high) * u.at(a, high);
+  }
+  return ledger.room.of(c) + span / layout.h() * net - ledger.after.of(c);
+}
+
+}  // namespace
+
+// The part p of the trial leaves the least sum of squares of m0 + p (m1 - m0) over full cells, m0 and m1 the misfits of
+// both flows. It is 0 where both fit, to the solver's tolerance.
+template <int Dim>
+double share_of_trial(const Domain<Dim>& domain, const Ledger<Dim>& ledger, const CellField<Dim>& share, double span,
+                      const FaceField<Dim>& initial, const FaceField<Dim>& trial) {
+  constexpr double least = 1e-6, lacking = 0.05, certain = 0.99;
+  const Layout<Dim>& l = domain.layout;
+  std::array<double, 3> sums{};  // m0 (m0 - m1), (m1 - m0)^2, squares of the difference of ways, in cells
+  for_each_index_in_order(l, l.cells(), [&](Site c, const IVec<Dim>&) {
+    const double room = ledger.room.of(c);
+    if (room == 0 || share[c] < room - lacking) return;
+    const double by_initial = misfit(l, ledger, initial, span, c),
+                 change = misfit(l, ledger, trial, span, c) - by_initial;
+    sums[0] -= by_initial * change;
+    sums[1] += change * change;
+    for (int a = 0; a < Dim; ++a) sums[2] += std::pow(span / l.h() * (trial.at(a, c) - initial.at(a, c)), 2);
+  });
+  domain.ranks.global_sum(sums);
+  if (sums[1] <= least * sums[2]) return 0;
+  const double part = sums[0] / sums[1];
+  return part > certain ? 1 : std::max(part, 0.0);
+}
+
+namespace {
 
 // u continued beyond inflow sides for paths, as those of the level set, m/s. Empty if there are none, or the flow is
 // prescribed: it is known there.
@@ -62,14 +102,12 @@ double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state) {
 }  // namespace
 
 template <int Dim>
-std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const GapFlow<Dim>& solved, double span,
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const FaceField<Dim>& through, double span,
                          const Ledger<Dim>& ledger, const CellValues& brought, const State<Dim>& before,
                          State<Dim>& state) {
   const CellField<Dim>& phi = before.liquid_phi.empty() ? before.phi : before.liquid_phi;
-  const std::optional<FaceField<Dim>> through =
-      ledger.room.is_whole() ? std::nullopt : std::optional(flow_through_faces(domain, solved, u));
   const std::optional<FaceField<Dim>> path = path_beyond_sides(domain, before, ledger.divergence, u);
-  VolumeFlow<Dim> flow{path ? *path : u, through ? *through : u, domain.sides.any_inflow(),
+  VolumeFlow<Dim> flow{path ? *path : u, through, domain.sides.any_inflow(),
                        cells_beyond_inflows(domain.layout, domain.sides, before.time)};
   for (const auto& [c, volume] : brought) flow.brought.emplace_back(c, volume / domain.layout.geometry().cell_volume());
   const VolumeStep step =
@@ -106,22 +144,75 @@ double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state) {
   return domain.ranks.global_sum(local);
 }
 
+namespace {
+
+// What cells at the surface have beyond the level set at their time.
+template <int Dim>
+struct BeyondLevelSet {
+  std::array<double, std::size_t(2 * Dim + 1)> sums{};  // times places and velocities, and half their squares, cells
+
+  Vec<Dim> moment() const { return Eigen::Map<const Vec<Dim>>(sums.data()); }
+  double flow(int axis) const { return sums[std::size_t(Dim + axis)]; }
+  double half_square() const { return sums.back(); }
+  void operator+=(const BeyondLevelSet& other) {
+    for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += other.sums[n];
+  }
+};
+
+// Away from solids. Collective.
+template <int Dim>
+BeyondLevelSet<Dim> beyond_level_set(const Domain<Dim>& domain, const State<Dim>& state) {
+  constexpr double reached = 1.6;  // cells from the surface within which a cell may be mixed
+  const Layout<Dim>& l = domain.layout;
+  const CellField<Dim>& phi = state.liquid_phi.empty() ? state.phi : state.liquid_phi;
+  const Room<Dim> room = state.room();
+  const auto may_differ = [&](Site c) {
+    return any_within(phi.data() + c, reached * l.h()) || !all_zero(state.liquid.data() + c);
+  };
+  BeyondLevelSet<Dim> own = local_sum_of_possible(l, l.cells(), may_differ, [&](Site c) {
+    BeyondLevelSet<Dim> r;
+    if (phi[c] <= -reached * l.h() || state.phi[c] >= reached * l.h() || room.of(c) < 1) return r;
+    const double beyond = state.liquid[c] - liquid_share(l, phi, c);
+    const Vec<Dim> x = l.position(l.index(c), cell_offset<Dim>());
+    for (int a = 0; a < Dim; ++a) {
+      const double low = state.now->u.at(a, c), high = state.now->u.at(a, c + l.stride(a));
+      r.sums[std::size_t(a)] = beyond * x[a];
+      r.sums[std::size_t(Dim + a)] = 0.5 * beyond * (low + high);
+      r.sums.back() += 0.25 * beyond * (low * low + high * high);
+    }
+    return r;
+  });
+  domain.ranks.global_sum(own.sums);
+  return own;
+}
+
+}  // namespace
+
 template <int Dim>
 void measure_tracked(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, StepStats& stats) {
   const double tracked = tracked_volume(domain, state);
   if (fluids.has_gas()) stats.gas_volume += stats.liquid_volume - tracked;
   stats.liquid_volume = tracked;
+  const BeyondLevelSet<Dim> beyond = beyond_level_set(domain, state);
+  const double mass = (fluids.density() - fluids.gas_density()) * domain.layout.geometry().cell_volume();
+  stats.potential_energy -= mass * truncate<Dim>(fluids.gravity.at(state.time)).dot(beyond.moment());
+  stats.kinetic_energy = std::max(0.0, stats.kinetic_energy + mass * beyond.half_square());
+  for (int a = 0; a < Dim; ++a) stats.momentum[a] += mass * beyond.flow(a);
   stats.volume_drifting = drifting_volume(domain, state);
   stats.volume_spilled = state.spilled_volume;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                            \
-  template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                       \
-  template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, const GapFlow<D>&, double, \
-                                       const Ledger<D>&, const CellValues&, const State<D>&, State<D>&); \
-  template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, const Ledger<D>&, State<D>&);    \
-  template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);           \
-  template double tracked_volume<D>(const Domain<D>&, const State<D>&);                                  \
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                                \
+  template std::optional<FaceField<D>> flow_through_faces<D>(const Domain<D>&, const Room<D>&, const GapFlow<D>&, \
+                                                             const FaceField<D>&);                                \
+  template double share_of_trial<D>(const Domain<D>&, const Ledger<D>&, const CellField<D>&, double,              \
+                                    const FaceField<D>&, const FaceField<D>&);                                    \
+  template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, const FaceField<D>&, double,        \
+                                       const Ledger<D>&, const CellValues&, const State<D>&, State<D>&);          \
+  template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, const Ledger<D>&, State<D>&);             \
+  template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);                    \
+  template double tracked_volume<D>(const Domain<D>&, const State<D>&);                                           \
   template void measure_tracked<D>(const Domain<D>&, const Fluids&, const State<D>&, StepStats&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -2,6 +2,8 @@
 // The liquid's volume as a field of its own beside the level set, State::liquid: carried through faces, conserved to
 // rounding but for the divergence of a prescribed flow. Where Setup::tracks_volume() is false, a shift of the level set
 // keeps the volume.
+#include <optional>
+
 #include "coupling/state/fluids.h"
 #include "coupling/state/simulation.h"
 #include "coupling/state/state.h"
@@ -13,12 +15,25 @@ namespace seiche {
 template <int Dim>
 void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state);
 
-// Carries State::liquid from the time it belongs to over `span` (s) along the flow u (m/s) that carries the level set.
-// `solved`: of the same flow, on faces that are hardly open. `ledger`: room of cells at both times, and of faces that u
-// fits. `brought`: what feeds bring into owned cells over the span, m^Dim. `before`: the state as it was. Books what
-// passes the sides, and what the flow's divergence adds. Empty, or a text if paths leave the halo. Collective.
+// u (m/s), with what the solve gave the faces that are hardly open. Empty where there are no solids. Collective.
 template <int Dim>
-std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const GapFlow<Dim>& solved, double span,
+std::optional<FaceField<Dim>> flow_through_faces(const Domain<Dim>& domain, const Room<Dim>& room,
+                                                 const GapFlow<Dim>& solved, const FaceField<Dim>& u);
+
+// Share of a trial in the flow that carries volumes in the first `span` s. The rest is the initial flow, as in all
+// later steps, where the surface moves with the velocity at their start. Their difference is an impulse where the
+// initial velocity does not fit. `initial`, `trial`: through faces, m/s. `share`: of the liquid. `ledger` as for
+// carry_liquid(). Collective.
+template <int Dim>
+double share_of_trial(const Domain<Dim>& domain, const Ledger<Dim>& ledger, const CellField<Dim>& share, double span,
+                      const FaceField<Dim>& initial, const FaceField<Dim>& trial);
+
+// Carries State::liquid from the time it belongs to over `span` (s) along u (m/s), `through` faces. `ledger`: room of
+// cells at both times, and of faces that it fits. `brought`: what feeds bring into owned cells over the span, m^Dim.
+// `before`: the state as it was. Books what passes the sides, and what the flow's divergence adds. Empty, or a text if
+// paths leave the halo. Collective.
+template <int Dim>
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const FaceField<Dim>& through, double span,
                          const Ledger<Dim>& ledger, const CellValues& brought, const State<Dim>& before,
                          State<Dim>& state);
 
@@ -34,7 +49,8 @@ std::string fault_of_volume(const Domain<Dim>& domain, const State<Dim>& before,
 // Volume of State::liquid and of drops, m^Dim. Collective.
 template <int Dim>
 double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state);
-// Sets the columns of volume from State::liquid; `stats` has those of the level set. Collective.
+// Sets the columns of volume from State::liquid, and adds energies and momentum of what it has beyond the level
+// set; `stats` has those of the level set. Collective.
 template <int Dim>
 void measure_tracked(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, StepStats& stats);
 

@@ -1,6 +1,7 @@
 #include "fluid/volume/level_set_coupling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fluid/volume/piece_distance.h"
@@ -14,11 +15,26 @@ namespace {
 
 constexpr double apart = 0.35;  // shift, in cells, from which on the level set is rebuilt
 
+// The cells within two of one.
+template <int Dim>
+struct SurfaceAround {
+  static constexpr int reach = 2;
+  std::array<Site, std::size_t(neighbour_count<Dim>(reach))> step;
+  std::array<Vec<Dim>, std::size_t(neighbour_count<Dim>(reach))> offset;
+
+  explicit SurfaceAround(const Layout<Dim>& layout) {
+    for (std::size_t n = 0; n < step.size(); ++n) {
+      const IVec<Dim> o = neighbour_offset<Dim>(int(n), reach);
+      step[n] = step_of(layout, o);
+      offset[n] = o.template cast<double>();
+    }
+  }
+};
+
 // Mean of delta over the surface around the foot of a cell, in cells; 0 if there is none.
 template <int Dim>
-double shift_at(const Layout<Dim>& layout, const Difference<Dim>& d, const CellField<Dim>& delta,
-                const CellField<Dim>& phi, Site c) {
-  constexpr int reach = 2;
+double shift_at(const Layout<Dim>& layout, const SurfaceAround<Dim>& around, const Difference<Dim>& d,
+                const CellField<Dim>& delta, const CellField<Dim>& phi, Site c) {
   constexpr double radius2 = 6.25, flattest = 0.5;
   const double h = layout.h();
   Vec<Dim> g;
@@ -26,13 +42,14 @@ double shift_at(const Layout<Dim>& layout, const Difference<Dim>& d, const CellF
   const Vec<Dim> foot = -phi[c] / h * g / std::max(flattest, g.norm());
   IVec<Dim> nearest;
   for (int a = 0; a < Dim; ++a) nearest[a] = int(std::lround(foot[a]));
+  const Site middle = c + step_of(layout, nearest);
+  const Vec<Dim> from = foot - nearest.template cast<double>();
   double sum = 0, weight = 0;
-  for (int n = 0; n < neighbour_count<Dim>(reach); ++n) {
-    const IVec<Dim> o = nearest + neighbour_offset<Dim>(n, reach);
-    const Site m = c + step_of(layout, o);
+  for (std::size_t n = 0; n < around.step.size(); ++n) {
+    const Site m = middle + around.step[n];
     if (!d.on_surface(m)) continue;
-    const double w =
-        d.area[m] * std::pow(std::max(0.0, 1 - (o.template cast<double>() - foot).squaredNorm() / radius2), 2);
+    const double near = std::max(0.0, 1 - (around.offset[n] - from).squaredNorm() / radius2),
+                 w = d.area[m] * near * near;
     sum += w * delta[m];
     weight += w;
   }
@@ -54,14 +71,17 @@ double shift_level_set(const Layout<Dim>& layout, const Difference<Dim>& d, cons
   constexpr double widest = 3, largest = 0.5;
   const double limit = std::min(widest, layout.halo() - 2.5) * layout.h();
   const CellField<Dim> old = phi;
-  for_each_site(layout, layout.cells(), [&](Site c) {
-    if (std::abs(old[c]) > limit) return;
-    const double shift = shift_at(layout, d, delta, old, c);
-    phi[c] -= gain_of(shift) * std::clamp(shift, -largest, largest) * layout.h();
-  });
-  return local_sum(layout, layout.cells(), [&](Site c, const IVec<Dim>&) {
-    return d.on_surface(c) ? d.area[c] * std::abs(phi[c] - old[c]) / layout.h() : 0.0;
-  });
+  const SurfaceAround<Dim> around(layout);
+  for_each_possible(
+      layout, layout.cells(), [&](Site c) { return any_within(old.data() + c, 1.001 * limit); },
+      [&](Site c) {
+        if (std::abs(old[c]) > limit) return;
+        const double shift = shift_at(layout, around, d, delta, old, c);
+        phi[c] -= gain_of(shift) * std::clamp(shift, -largest, largest) * layout.h();
+      });
+  return local_sum_of_possible(
+      layout, layout.cells(), [&](Site c) { return !all_zero(d.area.data() + c); },
+      [&](Site c) { return d.on_surface(c) ? d.area[c] * std::abs(phi[c] - old[c]) / layout.h() : 0.0; });
 }
 
 }  // namespace
@@ -73,12 +93,16 @@ Coupled couple_level_set(const Layout<Dim>& layout, const Halo<Dim>& halo, const
   const Difference<Dim> d(layout, psi, phi, ledger, share);
   Stray<Dim> stray(layout, d, phi, share);
   const std::vector<Site> surface = listed_possible(
-      layout, layout.cells(), [](Site) { return true; }, [&](Site c) { return d.on_surface(c); });
+      layout, layout.cells(), [&](Site c) { return !all_zero(d.area.data() + c); },
+      [&](Site c) { return d.on_surface(c); });
   const CellField<Dim> delta = smooth_shift(layout, halo, d, surface, stray.rhs);
-  for_each_site(layout, cells_around(layout, 2), [&](Site c) {
+  const auto moves = [&](Site c) { return !all_zero(delta.data() + c); };
+  for_each_possible(layout, cells_around(layout, 2), moves, [&](Site c) {
     if (std::abs(delta[c]) > apart) stray.rebuild[c] = 1;
   });
-  for_each_site(layout, layout.cells(), [&](Site c) { share[c] += stray.change[c]; });
+  for_each_possible(
+      layout, layout.cells(), [&](Site c) { return !all_zero(stray.change.data() + c); },
+      [&](Site c) { share[c] += stray.change[c]; });
   fill_share_ghosts(layout, halo, share);
   Coupled r;
   r.volumes = exchange_short_waves(layout, d, delta, phi, stray.rebuild, surface, share);

@@ -72,17 +72,18 @@ class LiquidInCells {
   // A cell whose plane stands for the surface in all cells that a region reaches, to 0.01 of each: the mixed one
   // nearest to its middle; none if the surface bends.
   std::optional<IVec<Dim>> flat_cell(const SweptRegion<Dim>& region) const {
-    constexpr double most = 0.01;
+    constexpr double most = 0.01, tie = 1e-6;  // of cells equally near, the one nearest to half full
     const CellRange<Dim> range = region.range();
     std::optional<IVec<Dim>> best;
     double least = 1e300;
     each_cell(range, [&](const IVec<Dim>& i) {
-      const double d = (centre_of(i) - region.middle()).squaredNorm();
-      if (pieces_.index[layout_.site(i)] >= 0 && d < least) least = d, best = i;
+      const Site c = layout_.site(i);
+      const double d = (centre_of(i) - region.middle()).squaredNorm() + tie * std::abs(share_[c] - 0.5);
+      if (pieces_.has(c) && d < least) least = d, best = i;
       return true;
     });
     if (!best) return {};
-    const CellPlane<Dim>& plane = pieces_.planes[std::size_t(pieces_.index[layout_.site(*best)])];
+    const CellPlane<Dim>& plane = pieces_[layout_.site(*best)];
     const bool flat = each_cell(range, [&](const IVec<Dim>& i) {
       const double offset = plane.offset - plane.normal.dot((i - *best).template cast<double>());
       return std::abs(share_below<Dim>(plane.normal, offset) - share_[layout_.site(i)]) < most;
@@ -91,9 +92,9 @@ class LiquidInCells {
   }
 
   double below_plane(const IVec<Dim>& cell, const Simplex<Dim>& piece) const {
-    const std::int32_t n = pieces_.index[layout_.site(cell)];
-    if (n < 0) return share_[layout_.site(cell)] > 0.5 ? piece.measure : 0;
-    const CellPlane<Dim>& plane = pieces_.planes[std::size_t(n)];
+    const Site c = layout_.site(cell);
+    if (!pieces_.has(c)) return share_[c] > 0.5 ? piece.measure : 0;
+    const CellPlane<Dim>& plane = pieces_[c];
     const double offset = plane.offset + plane.normal.dot(cell.template cast<double>());
     CutSimplex<Dim> cut{};
     for (int k = 0; k <= Dim; ++k) cut.f[k] = plane.normal.dot(piece.corner[k]) - offset;

@@ -35,15 +35,11 @@ double distance_of_pieces(const Layout<Dim>& layout, const SurfacePieces<Dim>& p
   double least = reach;
   for (int n = 0; n < neighbour_count<Dim>(reach); ++n) {
     const IVec<Dim> o = neighbour_offset<Dim>(n, reach);
-    const std::int32_t piece = pieces.index[c + step_of(layout, o)];
-    if (piece < 0 || distance_of_cell<Dim>(o) > least) continue;
-    least =
-        std::min(least, distance_of_piece<Dim>(pieces.planes[std::size_t(piece)], middle - o.template cast<double>()));
+    const Site m = c + step_of(layout, o);
+    if (!pieces.has(m) || distance_of_cell<Dim>(o) > least) continue;
+    least = std::min(least, distance_of_piece<Dim>(pieces[m], middle - o.template cast<double>()));
   }
-  const std::int32_t own = pieces.index[c];
-  const bool wet = own < 0
-                       ? share[c] > 0.5
-                       : pieces.planes[std::size_t(own)].normal.dot(middle) < pieces.planes[std::size_t(own)].offset;
+  const bool wet = pieces.has(c) ? pieces[c].normal.dot(middle) < pieces[c].offset : share[c] > 0.5;
   return (wet ? -least : least) * layout.h();
 }
 

@@ -66,20 +66,26 @@ bool keeps_excess(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const Ce
          share[c] < room + little;
 }
 
-// One round, from the shares `before` it. What this rank's cells gave. No cell gets or gives more than it can, however
+// Cells with more or less than they hold, but for what they keep.
+template <int Dim>
+std::vector<Site> cells_with_excess(const Layout<Dim>& layout, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
+                                    const CellField<Dim>& share) {
+  constexpr double rounding = 1e-13;
+  return listed_possible(
+      layout, cells_around(layout, 2), [&](Site c) { return !all_zero(share.data() + c); },
+      [&](Site c) {
+        return (share[c] > ledger.room.of(c) + rounding || share[c] < -rounding) &&
+               !is_deep(layout, ledger, phi, share, c) && !keeps_excess(layout, ledger, phi, share, c);
+      });
+}
+
+// One round for the cells with excess. What this rank's cells gave. No cell gets or gives more than it can, however
 // many neighbours ask: cells that took from the same one each as if alone made a rounding error grow 25-fold a round.
 template <int Dim>
-Spill hand_on_once(const Layout<Dim>& layout, const CellField<Dim>& before, const CellField<Dim>& phi,
-                   const Ledger<Dim>& ledger, bool anywhere, CellField<Dim>& share) {
-  constexpr double rounding = 1e-13;
-  const std::vector<Site> cells = listed_possible(
-      layout, cells_around(layout, 2), [](Site) { return true; },
-      [&](Site c) {
-        return (before[c] > ledger.room.of(c) + rounding || before[c] < -rounding) &&
-               !is_deep(layout, ledger, phi, before, c) && !keeps_excess(layout, ledger, phi, before, c);
-      });
+Spill hand_on_once(const Layout<Dim>& layout, const std::vector<Site>& cells, const Ledger<Dim>& ledger, bool anywhere,
+                   CellField<Dim>& share) {
+  const CellField<Dim> before = share;
   Spill spill;
-  if (cells.empty()) return spill;
   CellField<Dim> offered(layout), wanted(layout);
   for (const Site c : cells)
     Excess<Dim>(layout, ledger.room, before, c, anywhere).hand_on([&](Site n, double amount) {
@@ -137,8 +143,9 @@ Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Com
   const LedgerRules<Dim> present = ledger.at_end();
   hand_to_hosts(layout, halo, present.room, share);
   for (int round = 0; round < 3; ++round) {
-    const CellField<Dim> before = share;
-    const Spill spill = hand_on_once(layout, before, phi, present, round > 0, share);
+    const std::vector<Site> cells = cells_with_excess(layout, phi, present, share);
+    if (!ranks.any(!cells.empty())) break;
+    const Spill spill = hand_on_once(layout, cells, present, round > 0, share);
     all.moved += ranks.global_sum(spill.moved);
     if (round == 0) all.worst = ranks.global_max(spill.worst);
     fill_share_ghosts(layout, halo, share);

@@ -22,7 +22,10 @@ Difference<Dim>::Difference(const Layout<Dim>& layout, const NodeField<Dim>& psi
                             const Ledger<Dim>& ledger, const CellField<Dim>& share)
     : area(layout), missing(layout), room(ledger.room) {
   const double h = layout.h();
-  for_each_site(layout, cells_around(layout, layout.halo() - 1), [&](Site c) {
+  const auto may_differ = [&](Site c) {
+    return !all_zero(share.data() + c) || !all_above(phi.data() + c, reached * h);
+  };
+  for_each_possible(layout, cells_around(layout, layout.halo() - 1), may_differ, [&](Site c) {
     const double v = share[c];
     if (std::abs(phi[c]) < reached * h) {
       const VolumeAndArea found = share_and_area(layout, phi, psi, c);

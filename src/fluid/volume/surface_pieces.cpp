@@ -132,16 +132,16 @@ bool is_smooth(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell) 
 template <int Dim>
 SurfacePieces<Dim> surface_pieces(const Layout<Dim>& layout, const Box<Dim>& box, const CellField<Dim>& phi,
                                   const CountedShares<Dim>& share, const CellField<Dim, char>* where) {
-  SurfacePieces<Dim> r{CellField<Dim, std::int32_t>(layout, -1), {}};
+  SurfacePieces<Dim> r{CellField<Dim, std::int32_t>(layout), {}};
   const std::vector<Site> cells = listed_possible(
       layout, box, [&](Site c) { return where ? any_marked(where->data() + c) : !share.all_empty(c); },
       [&](Site c) { return (!where || (*where)[c]) && is_mixed(share[c]); });
-  for (std::size_t n = 0; n < cells.size(); ++n) r.index[cells[n]] = std::int32_t(n);
+  for (std::size_t n = 0; n < cells.size(); ++n) r.number[cells[n]] = std::int32_t(n + 1);
   r.planes.resize(cells.size());
   for_each_listed(cells, [&](Site c) {
     Vec<Dim> n = normal_of_level_set(layout, phi, c);
     if (n.isZero(0)) n = normal_of_columns(ShareBlock<Dim>(layout, share, c));
-    r.planes[std::size_t(r.index[c])] = {n, offset_of_share<Dim>(n, share[c])};
+    r.planes[std::size_t(r.number[c] - 1)] = {n, offset_of_share<Dim>(n, share[c])};
   });
   return r;
 }

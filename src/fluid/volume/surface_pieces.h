@@ -14,11 +14,14 @@ inline bool is_mixed(double share) {
   return share > least_share && share < 1 - least_share;
 }
 
-// The planes of the mixed cells of a box. index: -1 where there is none.
+// The planes of the mixed cells of a box.
 template <int Dim>
 struct SurfacePieces {
-  CellField<Dim, std::int32_t> index;
+  CellField<Dim, std::int32_t> number;  // place in the list + 1; 0: there is none
   std::vector<CellPlane<Dim>> planes;
+
+  bool has(Site c) const { return number[c] > 0; }
+  const CellPlane<Dim>& operator[](Site c) const { return planes[std::size_t(number[c] - 1)]; }
 };
 
 // Planes below which each mixed cell of `box` has its share of liquid. Normals from phi (m) where it is smooth, else

@@ -39,14 +39,15 @@ void SweptRegion<Dim>::add(const Facet& facet) {
   if (s.measure != 0) simplices_[std::size_t(count_++)] = s;
 }
 
-// The surface swept by an edge is cut along the diagonal from the edge's lower end now to its upper end before, for all
-// faces alike.
+// The surface swept by an edge is cut along its shorter diagonal, for all faces and mirror images alike. Of equal ones,
+// the one from the edge's lower end now counts.
 template <>
 void SweptRegion<3>::add_sides(const TracedFace<3>& f) {
   for (int k = 0; k < 4; ++k) {
     const int l = (k + 1) % 4;
     const Vec<3>&x = f.now[k], &y = f.now[l], &x0 = f.before[k], &y0 = f.before[l];
-    if (runs_upward(k)) {
+    const double own = (x - y0).squaredNorm(), other = (y - x0).squaredNorm();
+    if (runs_upward(k) ? own <= other : own < other) {
       add({{x, x0, y0}, 1});
       add({{x, y0, y}, 1});
     } else {

@@ -25,8 +25,9 @@ class Exchange {
  public:
   Exchange(const Layout<Dim>& layout, const Difference<Dim>& d, const CellField<Dim>& delta,
            const CellField<Dim, char>& good)
-      : layout_(layout), d_(d), delta_(delta), good_(good), takes_(layout, 1.0), gives_(layout, 1.0) {}
+      : layout_(layout), d_(d), delta_(delta), good_(good), takes_(layout), gives_(layout) {}
 
+  // Shares of the flows at the good ones of these cells. gain() reads those of a cell and its neighbours.
   void limit(const std::vector<Site>& surface, const CellField<Dim>& share) {
     for_each_listed(surface, [&](Site c) {
       double in = 0, out = 0;
@@ -65,17 +66,20 @@ template <int Dim>
 CellField<Dim, char> good_cells(const Layout<Dim>& layout, const Difference<Dim>& d, const CellField<Dim>& phi,
                                 const CellField<Dim, char>& rebuild) {
   CellField<Dim, char> good(layout);
-  for_each_site(layout, cells_around(layout, 2),
-                [&](Site c) { good[c] = d.on_surface(c) && !rebuild[c] && is_smooth(layout, phi, c); });
+  for_each_possible(
+      layout, cells_around(layout, 2), [&](Site c) { return !all_zero(d.area.data() + c); },
+      [&](Site c) {
+        if (d.on_surface(c) && !rebuild[c] && is_smooth(layout, phi, c)) good[c] = 1;
+      });
   return good;
 }
 
-// Cells with little room have what the level set gives them. Their hosts have the rest.
+// Cells with little room have what the level set gives them, as far as their hosts have it. Hosts have the rest.
 template <int Dim>
-void settle_with_hosts(const Layout<Dim>& layout, const Difference<Dim>& d, const Box<Dim>& box, CellField<Dim>& rhs,
-                       CellField<Dim>& change) {
+void settle_with_hosts(const Layout<Dim>& layout, const Difference<Dim>& d, const Box<Dim>& box,
+                       const CellField<Dim>& share, CellField<Dim>& rhs, CellField<Dim>& change) {
   d.room.each_with_host(layout, box, [&](Site c, Site host) {
-    const double missing = d.missing[c];
+    const double missing = std::max(d.missing[c], -std::max(0.0, share[host] + change[host]));
     change[c] -= missing;
     change[host] += missing;
     rhs[c] = 0;
@@ -113,11 +117,12 @@ Stray<Dim>::Stray(const Layout<Dim>& layout, const Difference<Dim>& d, const Cel
   constexpr double rounding = 1e-12, least_room = 0.2, most = 0.5, visible = 0.05;
   // Cells of the first layer around take from the second. Smoothness is known no farther than the first.
   const Box<Dim> box = cells_around(layout, 2), first = cells_around(layout, 1);
-  for_each_site(layout, box, [&](Site c) { rhs[c] = d.on_surface(c) ? d.missing[c] : 0; });
+  const auto may_matter = [&](Site c) { return !all_zero(d.missing.data() + c); };
+  for_each_possible(layout, box, may_matter,
+                    [&](Site c) { set_if_other(rhs[c], d.on_surface(c) ? d.missing[c] : 0.0); });
   const std::vector<Site> cells = listed_possible(
-      layout, box, [](Site) { return true; },
-      [&](Site c) { return !d.on_surface(c) && std::abs(d.missing[c]) > rounding; });
-  settle_with_hosts(layout, d, first, rhs, change);
+      layout, box, may_matter, [&](Site c) { return !d.on_surface(c) && std::abs(d.missing[c]) > rounding; });
+  settle_with_hosts(layout, d, first, share, rhs, change);
   std::vector<StrayPart> parts;
   for (const Site c : cells) {
     if (d.room.host_of(layout, c)) continue;
@@ -143,7 +148,8 @@ double exchange_short_waves(const Layout<Dim>& layout, const Difference<Dim>& d,
   const CellField<Dim, char> good = good_cells(layout, d, phi, rebuild);
   Exchange<Dim> exchange(layout, d, delta, good);
   exchange.limit(listed_possible(
-                     layout, cells_around(layout, 1), [](Site) { return true; }, [&](Site c) { return good[c] != 0; }),
+                     layout, cells_around(layout, 1), [&](Site c) { return any_marked(good.data() + c); },
+                     [&](Site c) { return good[c] != 0; }),
                  share);
   double moved = 0;
   for (const Site c : surface) {

@@ -56,6 +56,7 @@ struct Frame {
   std::string creator;
   std::vector<Grid> grids;
   std::vector<Point> points;  // by id; a grid of points in the file if there are any
+  bool has_drops = false;     // true if liquid may fly as such points
 };
 
 inline const std::string velocity_grid = "vel";  // in frames; in files also "velocity"

@@ -237,8 +237,9 @@ TEST_CASE("volumes are carried in cells beside whatever a scene has") {
   CHECK_NOTHROW(parse(cells + "separates = true\n"));
   CHECK(parse(cells).liquid.spray);
   CHECK(!parse(cells + "spray = false\n").liquid.spray);
-  const std::string needs = "liquid.spray = false needs liquid.volume = \"cells\"";
-  check_all({{small_scene + "[liquid]\nspray = false\n", needs},
+  CHECK(!parse(small_scene + "[liquid]\nspray = false\n").liquid.spray);
+  const std::string needs = "liquid.spray = false does not go with liquid.volume = \"shift\"";
+  check_all({{small_scene + "[liquid]\nvolume = \"shift\"\nspray = false\n", needs},
              {cells + "spray = 1\n", "liquid.spray must be true or false"},
              {cells + "spray = false\n[gas]\n", needs},
              {cells + "spray = false\nprescribed_velocity = [0, 0, 0]\n", needs}});
