@@ -256,6 +256,7 @@ void visit_cells(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   visitor.field("pressure", domain.layout.cells(), state.pressure);
   if (s.tracks_volume()) visitor.field("liquid", domain.layout.cells(), state.liquid);
   if (s.volume_lags()) visitor.field("liquid_phi", domain.layout.cells(), state.liquid_phi);
+  if (s.volume_lags()) visitor.field("liquid_beyond", domain.layout.cells(), state.liquid_beyond);
   if (s.fluids.liquid.separates) visitor.field("gap", domain.layout.cells(), state.separation.gap);
   if (s.solids.may_seal()) visitor.field("sealed", domain.layout.cells(), state.sealed);
   if (!visitor.loads()) return;
@@ -311,7 +312,7 @@ State<Dim> blank_state(const Setup<Dim>& s) {
   state.phi = CellField<Dim>(layout);
   state.pressure = CellField<Dim>(layout);
   if (s.tracks_volume()) state.liquid = CellField<Dim>(layout);
-  if (s.volume_lags()) state.liquid_phi = CellField<Dim>(layout);
+  if (s.volume_lags()) state.liquid_phi = state.liquid_beyond = CellField<Dim>(layout);
   state.open = s.open_parts;
   if (s.room_changes()) state.open = std::make_shared<OpenParts<Dim>>(layout);
   state.gap_flow = GapFlow<Dim>(layout);

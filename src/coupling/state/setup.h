@@ -36,8 +36,7 @@ struct Setup {
   std::vector<Sponge> sponges;
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
-  bool stays_full = false;                           // liquid fills the domain, and nothing lets air in
-  bool moving_sources = false;                       // of those whose shapes are kept full, or empty
+  bool shifts_by_default = false;                    // without gas and a prescribed flow
   std::shared_ptr<const OpenParts<Dim>> open_parts;  // if tracks_volume() beside solids, none of which moves; else null
 
   // `blocks`: owned cells of each rank; empty: of equal size.
@@ -48,9 +47,10 @@ struct Setup {
   bool tracks_volume() const {
     if (fluids.liquid.volume != VolumeKeeping::automatic) return fluids.liquid.volume == VolumeKeeping::in_cells;
     if (fluids.has_prescribed_flow()) return sources.empty() && drains.empty() && !domain.sides.any_inflow();
-    const auto asks_for_shift = [&](const Body<Dim>& b) { return b.is_thin() || (b.deforms() && !fluids.has_gas()); };
-    return may_have_fluid() && !stays_full && !moving_sources && !(fluids.has_gas() && fluids.has_surface_tension()) &&
-           std::none_of(solids.bodies.begin(), solids.bodies.end(), asks_for_shift);
+    const auto is_thin = [](const Body<Dim>& body) { return body.is_thin(); };
+    if (std::ranges::any_of(solids.bodies, is_thin)) return false;
+    if (fluids.has_gas()) return !fluids.has_surface_tension();
+    return may_have_fluid() && !shifts_by_default;
   }
   // True if liquid or gas is there at the start, or sides and sources may bring it.
   bool may_have_fluid() const {

@@ -33,8 +33,9 @@ struct State : Flow<Dim> {
   GapFlow<Dim> gap_flow;  // at `now`
   CellField<Dim> phi;     // m, ghosts filled
   // Share of each cell, ghosts filled; empty unless Setup::tracks_volume(). It belongs to the time of the last solve,
-  // time - since_solve, as does the level set liquid_phi (m); that is empty unless Setup::volume_lags().
-  CellField<Dim> liquid, liquid_phi;
+  // time - since_solve, as do the level set liquid_phi (m) and what `liquid` has beyond its share; those are empty
+  // unless Setup::volume_lags().
+  CellField<Dim> liquid, liquid_phi, liquid_beyond;
   // Room beside solids: of cells at the time of `liquid`, of faces where `now` fits the solids. Null unless both exist.
   std::shared_ptr<const OpenParts<Dim>> open;
   CellField<Dim> pressure;      // Pa, 0 where the cell has no row

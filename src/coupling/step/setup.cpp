@@ -102,6 +102,15 @@ bool will_stay_full(const Setup<Dim>& s) {
   return !(sinks && s.domain.sides.any_passes()) && fill_domain(s.domain, regions_of_liquid(s));
 }
 
+// True if a shift of the surface keeps the volume better than cells would, or as well for less
+// (docs/decisions/0061-volumes-and-level-set.md). Collective.
+template <int Dim>
+bool asks_for_shift(const Setup<Dim>& s) {
+  constexpr double longest_steps = 4;  // cells
+  return !s.sources.empty() || !s.drains.empty() || any_moves(s.solids) || s.scene->time.cfl > longest_steps ||
+         will_stay_full(s);
+}
+
 template <int Dim>
 void make_sources(const Scene& scene, Setup<Dim>& setup) {
   const auto make = [&](const std::vector<LiquidSourceSpec>& specs, const char* list, double sign,
@@ -227,9 +236,7 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
   make_sources(from, *this);
   fluids.rheology.yield_stress *= perturbation.yield_stress;
   features = Features(*this);
-  stays_full = will_stay_full(*this);
-  const auto moves = [](const Source<Dim>& source) { return source.spec.motion || source.spec.attached_to; };
-  moving_sources = std::ranges::any_of(sources, moves) || std::ranges::any_of(drains, moves);
+  shifts_by_default = asks_for_shift(*this);
   if (!fluids.liquid.spray) refuse_thin(solids, "liquid.spray = false", "remove spray");
   if (!tracks_volume() || solids.bodies.empty()) return;
   refuse_thin(solids, "liquid.volume = \"cells\"", "set \"shift\"");
@@ -289,7 +296,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.exterior->start(s.domain, s.fluids, s.solids, g, state.phi, u, fault);
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene->domain, g, fault);
   if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
-  if (s.volume_lags()) state.liquid_phi = state.phi;
+  if (s.volume_lags()) state.liquid_phi = state.phi, state.liquid_beyond = CellField<Dim>(s.domain.layout);
   state.open = s.open_parts;
   if (s.room_changes())
     state.open =

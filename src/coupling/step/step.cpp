@@ -58,7 +58,7 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double 
   Attempt<Dim> solved = s.volume_meets_void()
                             ? solve_within_room(s, before, std::move(moved), std::move(predicted), times, phases)
                             : solve_and_plan(s, before, std::move(moved), predicted, times, phases);
-  if (s.volume_lags()) solved.state.liquid_phi = solved.state.phi;
+  if (s.volume_lags()) keep_level_of_volumes(s.domain, solved.geometry.psi, s.divergence(), solved.state);
   if (times.leapfrog && solved.failure.empty()) move_second_half(s, before, times, *closed, phases, solved);
   if (solved.failure.empty() && !times.leapfrog) show_solids(s, solved.state);
   if (solved.failure.empty()) solved.failure = fly_after_solve(s, times, solved);

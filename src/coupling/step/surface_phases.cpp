@@ -113,8 +113,8 @@ void blend(const Layout<Dim>& layout, const FaceField<Dim>& from, double part, F
     });
 }
 
-// Carries the volumes of cells. Where initial velocities need not fit, the first step also asks what its trial found;
-// the trial itself carries nothing. Empty, or what fails.
+// Carries the volumes of cells. Where initial velocities need not fit, the first step takes what its trial found, or
+// without solids and gas the mean of both flows; the trial itself carries nothing. Empty, or what fails.
 template <int Dim>
 std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u, double span,
                           State<Dim>& next) {
@@ -131,10 +131,8 @@ std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const F
   if (!sets_off) return carry_liquid(s.domain, u, through ? *through : u, carried, ledger, brought, before, next);
   FaceField<Dim> trial = known.exterior->volume_velocity(s.domain, s.fluids, known, span);
   std::optional<FaceField<Dim>> trial_through = flow_through_faces(s.domain, room, known.gap_flow, trial);
-  const double part = share_of_trial(s.domain, ledger, before.liquid, span, through ? *through : u,
-                                     trial_through ? *trial_through : trial);
-  blend(s.domain.layout, u, part, trial);
-  if (through) blend(s.domain.layout, *through, part, *trial_through);
+  if (s.solids.bodies.empty() && !s.fluids.has_gas())
+    blend(s.domain.layout, u, share_of_trial(s.domain, ledger, before.liquid, brought, span, u, trial), trial);
   return carry_liquid(s.domain, trial, trial_through ? *trial_through : trial, carried, ledger, brought, before, next);
 }
 

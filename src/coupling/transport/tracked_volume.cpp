@@ -9,6 +9,7 @@
 #include "fluid/boundary/inflow.h"
 #include "fluid/volume/level_set_coupling.h"
 #include "fluid/volume/spill.h"
+#include "fluid/volume/surface_difference.h"
 #include "fluid/volume/volume_transport.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
@@ -39,33 +40,37 @@ std::optional<FaceField<Dim>> flow_through_faces(const Domain<Dim>& domain, cons
 
 namespace {
 
-// What a full cell would have too much of after `span`, K + dt/h sum +- w u - K', in cells.
+// What passes the faces of a cell inwards in `span`, in cells.
 template <int Dim>
-double misfit(const Layout<Dim>& layout, const LedgerRules<Dim>& ledger, const FaceField<Dim>& u, double span, Site c) {
+double passed_in(const Layout<Dim>& layout, const Room<Dim>& room, const FaceField<Dim>& u, double span, Site c) {
   double net = 0;
   for (int a = 0; a < Dim; ++a) {
     const Site high = c + layout.stride(a);
-    net += ledger.room.through(a, c) * u.at(a, c) - ledger.room.through(a, high) * u.at(a, high);
+    net += room.through(a, c) * u.at(a, c) - room.through(a, high) * u.at(a, high);
   }
-  return ledger.room.of(c) + span / layout.h() * net - ledger.after.of(c);
+  return span / layout.h() * net;
 }
 
 }  // namespace
 
-// The part p of the trial leaves the least sum of squares of m0 + p (m1 - m0) over full cells, m0 and m1 the misfits of
-// both flows. It is 0 where both fit, to the solver's tolerance.
+// m = K + dt/h sum +- w u + b - K' is what a full cell would have too much of, b what feeds bring. The part p of the
+// trial leaves the least sum of squares of m0 + p (m1 - m0) over full cells, m0 and m1 those of both flows. It is 0
+// where both fit, to the solver's tolerance.
 template <int Dim>
-double share_of_trial(const Domain<Dim>& domain, const Ledger<Dim>& ledger, const CellField<Dim>& share, double span,
-                      const FaceField<Dim>& initial, const FaceField<Dim>& trial) {
+double share_of_trial(const Domain<Dim>& domain, const Ledger<Dim>& ledger, const CellField<Dim>& share,
+                      const CellValues& brought, double span, const FaceField<Dim>& initial,
+                      const FaceField<Dim>& trial) {
   constexpr double least = 1e-6, lacking = 0.05, certain = 0.99;
   const Layout<Dim>& l = domain.layout;
+  CellField<Dim> fed(l);
+  for (const auto& [c, volume] : brought) fed[c] += volume / l.geometry().cell_volume();
   std::array<double, 3> sums{};  // m0 (m0 - m1), (m1 - m0)^2, squares of the difference of ways, in cells
   for_each_index_in_order(l, l.cells(), [&](Site c, const IVec<Dim>&) {
     const double room = ledger.room.of(c);
     if (room == 0 || share[c] < room - lacking) return;
-    const double by_initial = misfit(l, ledger, initial, span, c),
-                 change = misfit(l, ledger, trial, span, c) - by_initial;
-    sums[0] -= by_initial * change;
+    const double in = passed_in(l, ledger.room, initial, span, c), m0 = room + in + fed[c] - ledger.after.of(c),
+                 change = passed_in(l, ledger.room, trial, span, c) - in;
+    sums[0] -= m0 * change;
     sums[1] += change * change;
     for (int a = 0; a < Dim; ++a) sums[2] += std::pow(span / l.h() * (trial.at(a, c) - initial.at(a, c)), 2);
   });
@@ -125,6 +130,14 @@ void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, const L
 }
 
 template <int Dim>
+void keep_level_of_volumes(const Domain<Dim>& domain, const NodeField<Dim>& psi, Divergence divergence,
+                           State<Dim>& state) {
+  state.liquid_phi = state.phi;
+  Difference<Dim> difference(domain.layout, psi, state.phi, {divergence, state.room()}, state.liquid);
+  state.liquid_beyond = std::move(difference.missing);
+}
+
+template <int Dim>
 std::string fault_of_volume(const Domain<Dim>& domain, const State<Dim>& before, const State<Dim>& next) {
   constexpr double rounding = 1e-11;
   const double was = tracked_volume(domain, before), is = tracked_volume(domain, next),
@@ -159,20 +172,16 @@ struct BeyondLevelSet {
   }
 };
 
-// Away from solids. Collective.
+// Collective.
 template <int Dim>
 BeyondLevelSet<Dim> beyond_level_set(const Domain<Dim>& domain, const State<Dim>& state) {
-  constexpr double reached = 1.6;  // cells from the surface within which a cell may be mixed
+  constexpr double near = 1.6;  // cells from the surface within which a cell may be mixed
   const Layout<Dim>& l = domain.layout;
-  const CellField<Dim>& phi = state.liquid_phi.empty() ? state.phi : state.liquid_phi;
-  const Room<Dim> room = state.room();
-  const auto may_differ = [&](Site c) {
-    return any_within(phi.data() + c, reached * l.h()) || !all_zero(state.liquid.data() + c);
-  };
+  const auto may_differ = [&](Site c) { return !all_zero(state.liquid_beyond.data() + c); };
   BeyondLevelSet<Dim> own = local_sum_of_possible(l, l.cells(), may_differ, [&](Site c) {
     BeyondLevelSet<Dim> r;
-    if (phi[c] <= -reached * l.h() || state.phi[c] >= reached * l.h() || room.of(c) < 1) return r;
-    const double beyond = state.liquid[c] - liquid_share(l, phi, c);
+    const double beyond = state.liquid_beyond[c];
+    if (beyond == 0 || state.phi[c] >= near * l.h()) return r;
     const Vec<Dim> x = l.position(l.index(c), cell_offset<Dim>());
     for (int a = 0; a < Dim; ++a) {
       const double low = state.now->u.at(a, c), high = state.now->u.at(a, c + l.stride(a));
@@ -193,24 +202,26 @@ void measure_tracked(const Domain<Dim>& domain, const Fluids& fluids, const Stat
   const double tracked = tracked_volume(domain, state);
   if (fluids.has_gas()) stats.gas_volume += stats.liquid_volume - tracked;
   stats.liquid_volume = tracked;
+  stats.volume_drifting = drifting_volume(domain, state);
+  stats.volume_spilled = state.spilled_volume;
+  if (fluids.has_gas() || state.liquid_beyond.empty()) return;
   const BeyondLevelSet<Dim> beyond = beyond_level_set(domain, state);
-  const double mass = (fluids.density() - fluids.gas_density()) * domain.layout.geometry().cell_volume();
+  const double mass = fluids.density() * domain.layout.geometry().cell_volume();
   stats.potential_energy -= mass * truncate<Dim>(fluids.gravity.at(state.time)).dot(beyond.moment());
   stats.kinetic_energy = std::max(0.0, stats.kinetic_energy + mass * beyond.half_square());
   for (int a = 0; a < Dim; ++a) stats.momentum[a] += mass * beyond.flow(a);
-  stats.volume_drifting = drifting_volume(domain, state);
-  stats.volume_spilled = state.spilled_volume;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                     \
   template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                                \
   template std::optional<FaceField<D>> flow_through_faces<D>(const Domain<D>&, const Room<D>&, const GapFlow<D>&, \
                                                              const FaceField<D>&);                                \
-  template double share_of_trial<D>(const Domain<D>&, const Ledger<D>&, const CellField<D>&, double,              \
-                                    const FaceField<D>&, const FaceField<D>&);                                    \
+  template double share_of_trial<D>(const Domain<D>&, const Ledger<D>&, const CellField<D>&, const CellValues&,   \
+                                    double, const FaceField<D>&, const FaceField<D>&);                            \
   template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, const FaceField<D>&, double,        \
                                        const Ledger<D>&, const CellValues&, const State<D>&, State<D>&);          \
   template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, const Ledger<D>&, State<D>&);             \
+  template void keep_level_of_volumes<D>(const Domain<D>&, const NodeField<D>&, Divergence, State<D>&);           \
   template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);                    \
   template double tracked_volume<D>(const Domain<D>&, const State<D>&);                                           \
   template void measure_tracked<D>(const Domain<D>&, const Fluids&, const State<D>&, StepStats&);

@@ -25,8 +25,9 @@ std::optional<FaceField<Dim>> flow_through_faces(const Domain<Dim>& domain, cons
 // initial velocity does not fit. `initial`, `trial`: through faces, m/s. `share`: of the liquid. `ledger` as for
 // carry_liquid(). Collective.
 template <int Dim>
-double share_of_trial(const Domain<Dim>& domain, const Ledger<Dim>& ledger, const CellField<Dim>& share, double span,
-                      const FaceField<Dim>& initial, const FaceField<Dim>& trial);
+double share_of_trial(const Domain<Dim>& domain, const Ledger<Dim>& ledger, const CellField<Dim>& share,
+                      const CellValues& brought, double span, const FaceField<Dim>& initial,
+                      const FaceField<Dim>& trial);
 
 // Carries State::liquid from the time it belongs to over `span` (s) along u (m/s), `through` faces. `ledger`: room of
 // cells at both times, and of faces that it fits. `brought`: what feeds bring into owned cells over the span, m^Dim.
@@ -41,6 +42,11 @@ std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, con
 template <int Dim>
 void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, const Ledger<Dim>& ledger, State<Dim>& state);
 
+// Keeps the level set at the time of the volumes, and what they have beyond it. psi: distance to the solids then, m.
+template <int Dim>
+void keep_level_of_volumes(const Domain<Dim>& domain, const NodeField<Dim>& psi, Divergence divergence,
+                           State<Dim>& state);
+
 // Empty, or a text if State::liquid changed from `before` to `next` by other than what passed the sides, to 1e-11 of
 // it: a hundred times the rounding of a sum over 1e6 cells. Collective.
 template <int Dim>
@@ -49,8 +55,8 @@ std::string fault_of_volume(const Domain<Dim>& domain, const State<Dim>& before,
 // Volume of State::liquid and of drops, m^Dim. Collective.
 template <int Dim>
 double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state);
-// Sets the columns of volume from State::liquid, and adds energies and momentum of what it has beyond the level
-// set; `stats` has those of the level set. Collective.
+// Sets the columns of volume from State::liquid, and without gas adds energies and momentum of what it has beyond
+// the level set; `stats` has those of the level set. Collective.
 template <int Dim>
 void measure_tracked(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, StepStats& stats);
 
