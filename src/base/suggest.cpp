@@ -1,15 +1,16 @@
 #include "base/suggest.h"
 
 #include <algorithm>
+#include <array>
 
 namespace seiche {
 namespace {
 
-// Letters that the words share at their starts and ends.
-std::ptrdiff_t common_letters(const std::string& a, const std::string& b) {
+// Letters that the words share at their starts and ends; of these, at their starts.
+std::array<std::ptrdiff_t, 2> common_letters(const std::string& a, const std::string& b) {
   const auto start = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin();
   const auto end = std::mismatch(a.rbegin(), a.rend(), b.rbegin(), b.rend()).first - a.rbegin();
-  return std::min(start + end, std::ptrdiff_t(std::min(a.size(), b.size())));
+  return {std::min(start + end, std::ptrdiff_t(std::min(a.size(), b.size()))), start};
 }
 
 }  // namespace

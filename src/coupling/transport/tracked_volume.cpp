@@ -204,7 +204,7 @@ void measure_tracked(const Domain<Dim>& domain, const Fluids& fluids, const Stat
   stats.liquid_volume = tracked;
   stats.volume_drifting = drifting_volume(domain, state);
   stats.volume_spilled = state.spilled_volume;
-  if (fluids.has_gas() || state.liquid_beyond.empty()) return;
+  if (fluids.has_gas() || fluids.has_prescribed_flow()) return;
   const BeyondLevelSet<Dim> beyond = beyond_level_set(domain, state);
   const double mass = fluids.density() * domain.layout.geometry().cell_volume();
   stats.potential_energy -= mass * truncate<Dim>(fluids.gravity.at(state.time)).dot(beyond.moment());

@@ -298,9 +298,9 @@ TEST_CASE("a mesh without a file is refused in 2D") {
 TEST_CASE("the table names every shape of the scene format once") {
   const auto names = shape_names();
   CHECK(std::set<std::string>(names.begin(), names.end()) ==
-        std::set<std::string>{"box", "sphere", "cylinder", "capsule", "plane", "mesh", "expression", "level_set",
-                              "height_map"});
-  CHECK(names.size() == 9);
+        std::set<std::string>{"box", "sphere", "cylinder", "capsule", "plane", "mesh", "polygon", "expression",
+                              "level_set", "height_map"});
+  CHECK(names.size() == 10);
 }
 
 TEST_CASE("the contour of a sphere faces outwards and encloses its volume to second order") {
