@@ -48,7 +48,7 @@ template <int Dim>
 double fall_of_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
                       const StepGeometry<Dim>& geometry) {
   const Vec<Dim> g = truncate<Dim>(fluids.gravity.at(0));
-  if (!(g.norm() > 0) || geometry.psi.empty()) return 0;
+  if (!(g.norm() > 0) || !domain.ranks.any(!geometry.psi.empty())) return 0;  // a rank may have no cells
   const auto& grid = domain.layout.geometry();
   const CellField<Dim> everywhere(domain.layout, 1.0);
   const AirRegions<Dim> parts = find_air_regions(domain.layout, domain.halo, domain.ranks, everywhere, geometry.faces);
