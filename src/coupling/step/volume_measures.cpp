@@ -8,7 +8,7 @@
 namespace seiche {
 namespace {
 
-// What sides and feeds brought since the last solve, m^Dim. Collective.
+// Volume that sides and feeds brought since the last solve, m^Dim. Collective.
 template <int Dim>
 double brought_since_solve(const Setup<Dim>& s, const StepGeometry<Dim>& geometry, const State<Dim>& state) {
   const double span = state.since_solve;

@@ -40,7 +40,7 @@ std::optional<FaceField<Dim>> flow_through_faces(const Domain<Dim>& domain, cons
 
 namespace {
 
-// What passes the faces of a cell inwards in `span`, in cells.
+// Volume that passes the faces of a cell inwards in `span`, in cells.
 template <int Dim>
 double passed_in(const Layout<Dim>& layout, const Room<Dim>& room, const FaceField<Dim>& u, double span, Site c) {
   double net = 0;
@@ -159,7 +159,7 @@ double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state) {
 
 namespace {
 
-// What cells at the surface have beyond the level set at their time.
+// Liquid that cells at the surface have beyond the level set at their time.
 template <int Dim>
 struct BeyondLevelSet {
   std::array<double, std::size_t(2 * Dim + 1)> sums{};  // times places and velocities, and half their squares, cells

@@ -20,7 +20,7 @@ bool is_flat(const SurfaceMesh& mesh) {
   return mesh.triangles.empty();
 }
 
-// Of a closed surface, signed (2D: area).
+// Volume of a closed surface, signed (2D: area).
 double volume_within(const SurfaceMesh& mesh) {
   const Vec3 origin = mesh.points[0];
   double sum = 0;

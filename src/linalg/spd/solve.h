@@ -47,7 +47,7 @@ class SpdSolver {
   // Solves from the initial x. The part of b outside the range is removed first; x has no part in the null space. Tries
   // the chosen preconditioner, then the other attempts of the chain; the residual of every result is recomputed and
   // checked. An H without rows drops the second term. The tolerance is relative to `scale`, or to |b| if `scale` is 0.
-  // Where the round-off of x and b leaves a larger residual, that counts as converged: no x is better. Collective.
+  // A residual within the round-off of x and b counts as converged, since no x is better. Collective.
   [[nodiscard]] SolveReport solve(const BodyMatrix& H, const Vector& b, Vector& x, double scale = 0);
 
   // Closed components of A that bodies feel: H and J determine their mean pressure.
