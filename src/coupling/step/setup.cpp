@@ -94,11 +94,11 @@ std::vector<std::unique_ptr<ShapeField<Dim>>> regions_of_liquid(const Setup<Dim>
   return shapes;
 }
 
-// Collective.
+// True if liquid fills the domain and nothing lets air in. Collective.
 template <int Dim>
 bool will_stay_full(const Setup<Dim>& s) {
   const bool sinks = s.fluids.gravity.largest(0, s.scene->time.end) > 0;
-  if (s.fluids.gas.present || s.fluids.liquid.separates || !s.drains.empty() || !s.feeds.empty()) return false;
+  if (s.fluids.gas.present || s.fluids.liquid.separates || !s.feeds.empty()) return false;
   return !(sinks && s.domain.sides.any_passes()) && fill_domain(s.domain, regions_of_liquid(s));
 }
 

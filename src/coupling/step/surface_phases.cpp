@@ -114,7 +114,7 @@ void blend(const Layout<Dim>& layout, const FaceField<Dim>& from, double part, F
 }
 
 // Carries the volumes of cells. Where initial velocities need not fit, the first step takes what its trial found, or
-// without solids and gas the mean of both flows; the trial itself carries nothing. Empty, or what fails.
+// without solids and gas a part of that (share_of_trial()); the trial itself carries nothing. Empty, or what fails.
 template <int Dim>
 std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u, double span,
                           State<Dim>& next) {

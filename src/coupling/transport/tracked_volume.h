@@ -22,8 +22,8 @@ std::optional<FaceField<Dim>> flow_through_faces(const Domain<Dim>& domain, cons
 
 // Share of a trial in the flow that carries volumes in the first `span` s. The rest is the initial flow, as in all
 // later steps, where the surface moves with the velocity at their start. Their difference is an impulse where the
-// initial velocity does not fit. `initial`, `trial`: through faces, m/s. `share`: of the liquid. `ledger` as for
-// carry_liquid(). Collective.
+// initial velocity does not fit. `initial`, `trial`: through faces, m/s. `share`: of the liquid. `ledger` and `brought`
+// as for carry_liquid(). Collective.
 template <int Dim>
 double share_of_trial(const Domain<Dim>& domain, const Ledger<Dim>& ledger, const CellField<Dim>& share,
                       const CellValues& brought, double span, const FaceField<Dim>& initial,
