@@ -100,6 +100,12 @@ Continuation read_run(const ResumeOptions& options, const Communicator& ranks, R
   return run;
 }
 
+// The way of a checkpoint, which "auto" may not change: cells and drops would be lost, or missing.
+VolumeKeeping volume_keeping(const CheckpointData& data) {
+  const auto is_liquid = [](const FieldRecord& field) { return field.name == "liquid"; };
+  return std::ranges::any_of(data.fields, is_liquid) ? VolumeKeeping::in_cells : VolumeKeeping::by_shift;
+}
+
 }  // namespace
 
 std::string note_of_end(const Scene& scene) {
@@ -151,7 +157,8 @@ ExitCode resume_command(const ResumeOptions& options, const Surroundings& around
     simulation.load(load_checkpoint(run.checkpoint, simulation.checkpoint_boxes(run.checkpoint.data), ranks));
     return run.state;
   };
-  return run_session({run.scene, around, options.session, log, RunPaths{folder}}, restore);
+  return run_session({run.scene, around, options.session, log, RunPaths{folder}, volume_keeping(run.checkpoint.data)},
+                     restore);
 }
 
 }  // namespace seiche

@@ -151,8 +151,10 @@ ExitCode run_session(const Session& session, const Restore& restore) {
   try {
     if (stopped_early(around.ranks, session.log)) return ExitCode::stopped;
     watchdog.beat("setting up");
+    Scene scene = session.scene;
+    if (session.volume && scene.liquid.volume == VolumeKeeping::automatic) scene.liquid.volume = *session.volume;
     const std::unique_ptr<Simulation> simulation =
-        make_simulation(session.scene, around.ranks, parse_perturbation(session.options.perturbation));
+        make_simulation(scene, around.ranks, parse_perturbation(session.options.perturbation));
     prepare_files(session);
     watchdog.beat("restoring");
     const RunState start = restore ? restore(*simulation) : RunState{};

@@ -2,8 +2,10 @@
 // One session of a run: set-up around the run loop, and the summary at its end.
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "base/fluid_spec.h"
 #include "coupling/state/simulation.h"
 #include "files/run_directory.h"
 #include "run/command.h"
@@ -17,6 +19,7 @@ struct Session {
   const SessionOptions& options;
   RunLog& log;
   RunPaths paths;
+  std::optional<VolumeKeeping> volume = {};  // as the run that goes on has kept it, in place of "auto"
 };
 
 // Restores the simulation's state and returns that of the run loop.

@@ -124,6 +124,15 @@ def odd_and_thin_grids(bench):
     bench.simulate(text=box_scene([1, 1, 1], ""), out="single").needs(2, "single cell")
 
 
+def outlines_are_accounted_for(bench):
+    """Corners that the grid cuts off are no loss; what lies beyond a side is."""
+    for lift, told in ((0.0, False), (-0.3, True)):
+        points = [[0.1, 0.3 + lift], [0.9, 0.3 + lift], [0.5, 0.4 + lift]]
+        text = box_scene([32, 32], region(f'shape = "polygon"\npoints = {points}'))
+        output = bench.run("check", bench.scene(text)).needs(0).output
+        expect(("lies outside of the domain" in output) == told, f"lifted by {lift}:\n{output}")
+
+
 def scene_is_accounted_for(bench):
     """`check` and the start of `run` report liquid, masses, sizes and positions, and the parts that are lost."""
     pool = region('shape = "box"\nlower = [0.0, 0.0]\nupper = [1.0, 0.5]')
@@ -155,6 +164,7 @@ def scene_is_accounted_for(bench):
             expect(figures, f"no line on the liquid in\n{result.output}")
             for figure, right in zip(figures.groups(), (0.4, 400.0, 0.11)):   # corners are cut off within their cells
                 expect(abs(float(figure) - right) < 0.05 * right, f"{figure} where {right} is right")
+    outlines_are_accounted_for(bench)
     thin = '[[solid]]\nname = "sheet"\nkind = "static"\nshape = "box"\nlower = [0.5, 0.2]\nupper = [0.51, 0.9]\n'
     bench.run("check", bench.scene(box_scene([16, 16], pool, thin))).needs(0, "off: leapfrog of surface and velocity (because of: solids thinner than a cell)")
 
@@ -578,6 +588,22 @@ def resume_of_finished_run(bench):
     same_tables(bench.path("out"), bench.path("whole"))
     same_frames(bench.path("out"), bench.path("whole"))
     bench.run("resume", "nowhere").needs(2, "nowhere")
+
+
+def resume_keeps_volumes_as_they_were(bench):
+    """Where "auto" would choose anew, a run goes on with cells or the shift as it began: no drop is lost."""
+    high = region('shape = "box"\nlower = [0.3, 0.6]\nupper = [0.5, 0.61]')
+    pool = region('shape = "box"\nlower = [0.0, 0.0]\nupper = [1.0, 0.3]')
+    bench.simulate("--frames", "1", text=box_scene([32, 32], pool + high)).needs(0, "volume  carried by cells")
+    drops = float(stats(bench.path("out"))[-1]["drops"])
+    expect(drops > 0, "no drop flies")
+    bench.run("resume", "out", "--frames", "2", "--set", "time.cfl=5").needs(0)
+    rows = stats(bench.path("out"))
+    expect(float(rows[-1]["drops"]) > 0.5 * drops, f"{rows[-1]['drops']} drops of {drops} are left")
+    expect(all(float(row["volume_corrected"]) == 0 for row in rows), "a shift moved the surface")
+    bench.simulate("--frames", "1", "--set", "time.cfl=8", text=box_scene([32, 32], pool), out="long").needs(
+        0, "volume  kept by a shift of the liquid's surface, since time.cfl is above 4")
+    bench.run("resume", "long", "--frames", "2", "--set", "time.cfl=1").needs(0)
 
 
 # --- injected faults -------------------------------------------------------------------------------------------------
@@ -1228,7 +1254,7 @@ TABLES = {
                two_jobs_in_one_folder, file_size_limit, full_device, full_disk, few_file_handles],
     "memory": [grid_larger_than_any_machine, address_space_limit, allocation_fails_on_one_rank],
     "stopping": [stop_by_signal, stop_in_the_first_moments, run_folder_removed, stop_by_file_and_walltime, stop_under_mpirun, hung_rank, killed_and_resumed,
-                 resume_of_finished_run],
+                 resume_of_finished_run, resume_keeps_volumes_as_they_were],
     "injection": [exception_in_every_phase, rank_killed, nan_once_in_numerics, energy_beyond_the_budget, nan_that_stays],
     "checkpoints": [damaged_checkpoints, damaged_tables, no_checkpoint_left, extra_file_is_ignored, swapped_rank_files,
                     foreign_checkpoints, other_rank_counts, edited_scene],

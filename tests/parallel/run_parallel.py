@@ -557,7 +557,7 @@ def bounces_ranks_agree_2d(bench):
 def impacts_in(checkpoint):
     """Numbers of the impacts in a checkpoint, as coupling/state/impact_numbers.h packs them."""
     data = checkpoint.read_bytes()
-    key = b"impacts.under_way"
+    key = b"impacts.due"
     at = data.index(key) + len(key)
     return numpy.frombuffer(data, count=int.from_bytes(data[at:at + 8], "little") // 8, offset=at + 8)
 

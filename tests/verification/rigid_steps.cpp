@@ -51,7 +51,7 @@ TEST_CASE("a sphere of density ratio 1e-9 moves as one of the least ratio, and t
 // energy. On the way up 3 % may be lost (measured: 1.7 %); liquid that braked it took 26 %.
 TEST_CASE("a massless sphere rises on by the work of gravity alone") {
   const auto sim = make_simulation(ball_in_water(24, 0.15, 0.25, 0.75, 1e-6), Communicator());
-  double height = 0, fastest = 0, kinetic = 0, least_lost = 0, lost_below = 0;
+  double height = 0, fastest = 0, kinetic = 0, least_lost = 0, lost_below = 0, aside = 0;
   while (sim->time() < 0.4) {
     const StepStats stats = sim->step(0.4);
     const SolidState ball = sim->solids()[0];
@@ -60,13 +60,16 @@ TEST_CASE("a massless sphere rises on by the work of gravity alone") {
     height = std::max(height, ball.position[1]);
     kinetic = std::max(kinetic, stats.kinetic_energy);
     least_lost = std::min(least_lost, stats.work.lost_numerical);
-    if (ball.position[1] < 0.75) lost_below = stats.work.lost_numerical;
+    if (ball.position[1] >= 0.75) continue;
+    lost_below = stats.work.lost_numerical;
+    aside = std::max({aside, std::abs(ball.position[0] - 0.5), std::abs(ball.position[2] - 0.5)});
   }
   WARN("ratio 1e-6: rises to " << height << " m, at most " << fastest << " m/s and " << kinetic << " J; lost at least "
                                << least_lost << " J, " << lost_below << " J up to the surface");
   CHECK(height > 0.5);
   CHECK(least_lost >= -0.06 * kinetic);
   CHECK(std::abs(lost_below) <= 0.03 * kinetic);
+  CHECK(aside < 1e-6);  // measured: 1e-11; neighbours of covered cells in a fixed order moved it by 1e-3
 }
 
 // x = v t - g t^2/2 up to round-off, with steps of any length.

@@ -42,6 +42,20 @@ void gather_rooms(std::vector<RoomLayers>& rooms, const Communicator& ranks) {
   }
 }
 
+// Faces as static solids alone leave them: gates open, and floats let liquid pass.
+template <int Dim>
+FaceGeometry<Dim> faces_among_static(const StepGeometry<Dim>& geometry) {
+  FaceGeometry<Dim> faces = geometry.faces;
+  for (const auto& shares : geometry.shares) {
+    if (!shares) continue;  // static
+    for (const FaceShare& s : *shares) {
+      faces.open.add(s.axis, s.face, s.closed);
+      if (faces.kind_at(s.axis, s.face) == FaceKind::closed) faces.kind.set(s.axis, s.face, char(FaceKind::open));
+    }
+  }
+  return faces;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -51,7 +65,8 @@ double fall_of_liquid(const Domain<Dim>& domain, const Fluids& fluids, const Sta
   if (!(g.norm() > 0) || !domain.ranks.any(!geometry.psi.empty())) return 0;  // a rank may have no cells
   const auto& grid = domain.layout.geometry();
   const CellField<Dim> everywhere(domain.layout, 1.0);
-  const AirRegions<Dim> parts = find_air_regions(domain.layout, domain.halo, domain.ranks, everywhere, geometry.faces);
+  const AirRegions<Dim> parts =
+      find_air_regions(domain.layout, domain.halo, domain.ranks, everywhere, faces_among_static(geometry));
   // Layer of a cell: its height over the lowest corner of the domain, in cells.
   const Vec<Dim> up = -g.normalized(), size = grid.cells.template cast<double>();
   const double low = up.cwiseProduct(size).cwiseMin(0.0).sum(), high = up.cwiseProduct(size).cwiseMax(0.0).sum();

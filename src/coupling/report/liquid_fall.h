@@ -7,7 +7,8 @@
 
 namespace seiche {
 
-// Mean height over which liquid has to fall at t = 0 until it lies flat in the room around it, which solids bound, m.
+// Mean height over which liquid has to fall at t = 0 until it lies flat in the room around it, which static solids
+// bound, m.
 // By whole cells; 0 without gravity. Collective; equal on all ranks.
 template <int Dim>
 double fall_of_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,

@@ -72,8 +72,26 @@ bool warn_of_shape(const Domain<Dim>& domain, const ShapeSpec& spec, const Shape
   return warnings.size() > before;
 }
 
+// True if a shape goes on beyond a side of the domain, as looked up a quarter of a cell beyond the cells at it.
+template <int Dim>
+bool passes_sides(const Domain<Dim>& domain, const ShapeSpec& spec) {
+  constexpr double beyond = 0.75;  // cells from the centre of a cell
+  const auto shape = make_shape<Dim>(spec, {domain.layout.h(), nullptr});
+  const Layout<Dim>& l = domain.layout;
+  bool any = false;
+  for_each_index_in_order(l, l.cells(), [&](Site, const IVec<Dim>& i) {
+    for (int a = 0; a < Dim; ++a)
+      for (const int way : {-1, 1}) {
+        if (i[a] != (way < 0 ? 0 : l.geometry().cells[a] - 1)) continue;
+        const Vec<Dim> x = l.position(i, cell_offset<Dim>()) + way * beyond * l.h() * Vec<Dim>::Unit(a);
+        any = any || (*shape)(x) < 0;
+      }
+  });
+  return domain.ranks.any(any);
+}
+
 // Line on a region that lies partly outside of the domain, or "". The grid knows its volume to some percent only, so
-// that small parts are not told. whole: its volume within the domain.
+// that small parts are not told. whole: its volume within the domain. Collective.
 template <int Dim>
 std::string loss_of_region(const Domain<Dim>& domain, const ShapeSpec& spec, const std::string& name, double whole) {
   constexpr double notable = 0.05;
@@ -83,7 +101,7 @@ std::string loss_of_region(const Domain<Dim>& domain, const ShapeSpec& spec, con
   const Vec<Dim> size = geometry.cells.template cast<double>() * domain.layout.h();
   const double volume =
       mass_properties<Dim>(spec, 1, {domain.layout.h(), nullptr}, geometry.lower, geometry.lower + size).volume;
-  if (whole > (1 - notable) * volume) return {};
+  if (whole > (1 - notable) * volume || !passes_sides(domain, spec)) return {};
   return fmt::format("{}: about {:.2g} % of its {} lies outside of the domain", name, 100 * (1 - whole / volume),
                      volume_text<Dim>(volume));
 }

@@ -171,12 +171,13 @@ void visit_joint(std::size_t k, JointState& joint, StateVisitor& visitor) {
   visit_sized(prefix + "bow_load", joint.bow_load, visitor);
 }
 
-// "impacts" of earlier versions held other numbers: impacts under way are over after a step or two, and left out.
+// "impacts" and "impacts.under_way" of earlier versions held other numbers: impacts under way are over after a step or
+// two, and left out.
 template <int Dim>
 void visit_impacts(const Solids<Dim>& solids, Impacts& impacts, FieldVisitor<Dim>& visitor) {
-  if (solids.restitutions.empty() || !visitor.has("impacts.under_way")) return;
+  if (solids.restitutions.empty() || !visitor.has("impacts.due")) return;
   std::vector<double> all = pack_impacts(impacts);
-  visitor.numbers("impacts.under_way", all);
+  visitor.numbers("impacts.due", all);
   if (!visitor.loads()) return;
   std::optional<Impacts> known = unpack_impacts(all, solids.bodies.size());
   if (!known) throw Error(ExitCode::bad_checkpoint, "the checkpoint's impacts of solids make no sense");
@@ -224,7 +225,7 @@ void visit_power(ViscousPower& power, StateVisitor& visitor) {
   visitor.number("viscous.sides", power.sides);
 }
 
-// Checkpoints of earlier versions have neither since_solve nor convected loads nor work.
+// Checkpoints of earlier versions have neither since_solve, volume_lag nor convected loads nor work.
 template <int Dim>
 void visit_numbers(const Fluids& fluids, std::size_t solids, State<Dim>& state, FieldVisitor<Dim>& visitor) {
   double step = double(state.step);
@@ -233,6 +234,8 @@ void visit_numbers(const Fluids& fluids, std::size_t solids, State<Dim>& state, 
   visitor.number("dt_now", state.dt_now);
   visitor.number("dt_before", state.dt_before);
   if (visitor.has("since_solve")) visitor.number("since_solve", state.since_solve);
+  if (visitor.loads()) state.volume_lag = state.since_solve;
+  if (visitor.has("volume_lag")) visitor.number("volume_lag", state.volume_lag);
   visitor.number("horizon", state.horizon);
   if (visitor.loads()) state.planned = state.horizon;
   if (visitor.has("planned")) visitor.number("planned", state.planned);
@@ -256,7 +259,8 @@ void visit_cells(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   visitor.field("pressure", domain.layout.cells(), state.pressure);
   if (s.tracks_volume()) visitor.field("liquid", domain.layout.cells(), state.liquid);
   if (s.volume_lags()) visitor.field("liquid_phi", domain.layout.cells(), state.liquid_phi);
-  if (s.volume_lags()) visitor.field("liquid_beyond", domain.layout.cells(), state.liquid_beyond);
+  if (s.volume_meets_void() && visitor.has("liquid_beyond"))
+    visitor.field("liquid_beyond", domain.layout.cells(), state.liquid_beyond);
   if (s.fluids.liquid.separates) visitor.field("gap", domain.layout.cells(), state.separation.gap);
   if (s.solids.may_seal()) visitor.field("sealed", domain.layout.cells(), state.sealed);
   if (!visitor.loads()) return;
@@ -312,7 +316,8 @@ State<Dim> blank_state(const Setup<Dim>& s) {
   state.phi = CellField<Dim>(layout);
   state.pressure = CellField<Dim>(layout);
   if (s.tracks_volume()) state.liquid = CellField<Dim>(layout);
-  if (s.volume_lags()) state.liquid_phi = state.liquid_beyond = CellField<Dim>(layout);
+  if (s.volume_lags()) state.liquid_phi = CellField<Dim>(layout);
+  if (s.volume_meets_void()) state.liquid_beyond = CellField<Dim>(layout);
   state.open = s.open_parts;
   if (s.room_changes()) state.open = std::make_shared<OpenParts<Dim>>(layout);
   state.gap_flow = GapFlow<Dim>(layout);

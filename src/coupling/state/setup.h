@@ -36,7 +36,7 @@ struct Setup {
   std::vector<Sponge> sponges;
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
-  bool shifts_by_default = false;                    // without gas and a prescribed flow
+  std::string shift_because;                         // why a shift keeps the volume by default; empty: cells do
   std::shared_ptr<const OpenParts<Dim>> open_parts;  // if tracks_volume() beside solids, none of which moves; else null
 
   // `blocks`: owned cells of each rank; empty: of equal size.
@@ -46,11 +46,7 @@ struct Setup {
   // True if the liquid's volume is a field of its own (State::liquid), not kept by a shift of the level set.
   bool tracks_volume() const {
     if (fluids.liquid.volume != VolumeKeeping::automatic) return fluids.liquid.volume == VolumeKeeping::in_cells;
-    if (fluids.has_prescribed_flow()) return sources.empty() && drains.empty() && !domain.sides.any_inflow();
-    const auto is_thin = [](const Body<Dim>& body) { return body.is_thin(); };
-    if (std::ranges::any_of(solids.bodies, is_thin)) return false;
-    if (fluids.has_gas()) return !fluids.has_surface_tension();
-    return may_have_fluid() && !shifts_by_default;
+    return shift_because.empty();
   }
   // True if liquid or gas is there at the start, or sides and sources may bring it.
   bool may_have_fluid() const {

@@ -37,7 +37,7 @@ struct StartAccount {
   LiquidAtStart liquid;
   std::vector<SolidAtStart> solids;  // in the scene's order
   std::vector<std::string> losses;   // lines on regions of liquid that lie partly outside of the domain
-  std::vector<std::string> others;   // lines on joints, features switched off, meshes of elastic solids
+  std::vector<std::string> others;   // lines on joints, volume, features switched off, meshes of elastic solids
 };
 
 }  // namespace seiche

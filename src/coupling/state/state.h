@@ -32,9 +32,9 @@ struct State : Flow<Dim> {
   OwnedExterior<Dim> exterior;
   GapFlow<Dim> gap_flow;  // at `now`
   CellField<Dim> phi;     // m, ghosts filled
-  // Share of each cell, ghosts filled; empty unless Setup::tracks_volume(). It belongs to the time of the last solve,
-  // time - since_solve, as do the level set liquid_phi (m) and what `liquid` has beyond its share; those are empty
-  // unless Setup::volume_lags().
+  // Share of each cell, ghosts filled; empty unless Setup::tracks_volume(). It belongs to time - volume_lag, as do the
+  // level set liquid_phi (m), empty unless Setup::volume_lags(), and what `liquid` has beyond its share, empty unless
+  // Setup::volume_meets_void().
   CellField<Dim> liquid, liquid_phi, liquid_beyond;
   // Room beside solids: of cells at the time of `liquid`, of faces where `now` fits the solids. Null unless both exist.
   std::shared_ptr<const OpenParts<Dim>> open;
@@ -47,6 +47,7 @@ struct State : Flow<Dim> {
   std::vector<JointState> joints;
   Impacts impacts;         // of solids with restitution, under way
   double since_solve = 0;  // time from the geometry of the last solve to this state, s: half a leapfrog step, or 0
+  double volume_lag = 0;   // from the time of `liquid`, s: since_solve, or 0 where the old flow made the second half
   std::shared_ptr<const State> trial = {};  // after a trial of the first step, for the step itself; else null
   bool looks_ahead = false;                 // for a trial that leaves solids where they begin (look_ahead.h)
   double horizon = 0;                       // interval ahead for which the solids' velocities were solved, s

@@ -146,8 +146,9 @@ class FlowSimulation : public Simulation {
   }
 
  private:
-  // Adds features switched off, and meshes of elastic solids.
+  // Adds how the volume is kept, features switched off, and meshes of elastic solids.
   void add_others(StartAccount& start) const {
+    if (setup_->may_have_fluid()) start.others.push_back(describe_volume(*setup_));
     const std::vector<std::string> features = describe_features(*setup_);
     start.others.insert(start.others.end(), features.begin(), features.end());
     for (std::size_t k = 0; k < state_.solids.size(); ++k)

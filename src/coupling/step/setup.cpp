@@ -102,13 +102,23 @@ bool will_stay_full(const Setup<Dim>& s) {
   return !(sinks && s.domain.sides.any_passes()) && fill_domain(s.domain, regions_of_liquid(s));
 }
 
-// True if a shift of the surface keeps the volume better than cells would, or as well for less
-// (docs/decisions/0061-volumes-and-level-set.md). Collective.
+// Why a shift of the surface keeps the volume better than cells would, or as well for less
+// (docs/decisions/0061-volumes-and-level-set.md); empty if it does not. Collective.
 template <int Dim>
-bool asks_for_shift(const Setup<Dim>& s) {
+std::string reason_to_shift(const Setup<Dim>& s) {
   constexpr double longest_steps = 4;  // cells
-  return !s.sources.empty() || !s.drains.empty() || any_moves(s.solids) || s.scene->time.cfl > longest_steps ||
-         will_stay_full(s);
+  const bool keeps_shapes = !s.sources.empty() || !s.drains.empty();
+  if (s.fluids.has_prescribed_flow())
+    return keeps_shapes || s.domain.sides.any_inflow() ? "liquid enters or leaves a prescribed flow" : "";
+  for (const Body<Dim>& body : s.solids.bodies)
+    if (body.is_thin()) return fmt::format("solid '{}' is thinner than a cell", body.spec().name);
+  if (s.fluids.has_gas()) return s.fluids.has_surface_tension() ? "the surface to the gas has tension" : "";
+  if (!s.may_have_fluid()) return "there is no liquid";
+  if (keeps_shapes) return "a source or drain without a rate keeps its shape full or empty";
+  for (const Body<Dim>& body : s.solids.bodies)
+    if (body.spec().kind.deforms()) return fmt::format("solid '{}' deforms", body.spec().name);
+  if (s.scene->time.cfl > longest_steps) return fmt::format("time.cfl is above {:g}", longest_steps);
+  return will_stay_full(s) ? "liquid fills the domain for good" : "";
 }
 
 template <int Dim>
@@ -236,8 +246,10 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
   make_sources(from, *this);
   fluids.rheology.yield_stress *= perturbation.yield_stress;
   features = Features(*this);
-  shifts_by_default = asks_for_shift(*this);
+  if (fluids.liquid.volume == VolumeKeeping::automatic) shift_because = reason_to_shift(*this);
   if (!fluids.liquid.spray) refuse_thin(solids, "liquid.spray = false", "remove spray");
+  if (!fluids.liquid.spray && !shift_because.empty())
+    notes.push_back(fmt::format("liquid.spray = false does nothing here, since {} (liquid.volume)", shift_because));
   if (!tracks_volume() || solids.bodies.empty()) return;
   refuse_thin(solids, "liquid.volume = \"cells\"", "set \"shift\"");
   if (any_moves(solids) || fluids.liquid.separates) return;
@@ -296,7 +308,8 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.exterior->start(s.domain, s.fluids, s.solids, g, state.phi, u, fault);
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene->domain, g, fault);
   if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
-  if (s.volume_lags()) state.liquid_phi = state.phi, state.liquid_beyond = CellField<Dim>(s.domain.layout);
+  if (s.volume_lags()) state.liquid_phi = state.phi;
+  if (s.volume_meets_void()) state.liquid_beyond = CellField<Dim>(s.domain.layout);
   state.open = s.open_parts;
   if (s.room_changes())
     state.open =

@@ -16,7 +16,7 @@ State<Dim> shifted_levels(const State<Dim>& before, const StepTimes& times) {
   age(next.exterior->flow);
   next.dt_before = before.dt_now;
   next.dt_now = times.dt;
-  next.since_solve = times.leapfrog ? times.dt - times.lead : 0;
+  next.since_solve = next.volume_lag = times.leapfrog ? times.dt - times.lead : 0;
   return next;
 }
 

@@ -61,19 +61,25 @@ std::shared_ptr<const EndOfStep<Dim>> find_end(const Domain<Dim>& domain, const 
   return end_of_step(domain, solids, known, moved.state, moved.geometry, times.dt);
 }
 
-// Room in cells where the solids are at the solve, less gaps at walls, and through faces where its velocities fit them.
+// Room in cells beside solids at distance psi (m), less gaps at walls, and through `open` shares of faces.
+template <int Dim>
+std::shared_ptr<const OpenParts<Dim>> room_beside(const Domain<Dim>& domain, const NodeField<Dim>& psi,
+                                                  const PagedFaceField<Dim>& open, const Separation<Dim>& separation) {
+  auto parts = std::make_shared<OpenParts<Dim>>(measure_open_parts(domain.layout, domain.halo, psi, open));
+  if (separation.gap.empty()) return parts;
+  for (const Site c : listed_possible(
+           domain.layout, domain.layout.cells(), [](Site) { return true; },
+           [&](Site cell) { return separation.gap[cell] > 0; }))
+    parts->cells.set(c, std::max(0.0, parts->cells[c] - separation.gap[c]));
+  fill_open_ghosts(domain.layout, domain.halo, *parts);
+  return parts;
+}
+
+// Room in cells where the solids are at the solve, and through faces where its velocities fit them.
 template <int Dim>
 std::shared_ptr<const OpenParts<Dim>> room_at_solve(const Domain<Dim>& domain, const Moved<Dim>& moved) {
   const StepGeometry<Dim>& fitted = moved.end ? moved.end->geometry : moved.geometry;
-  auto parts = std::make_shared<OpenParts<Dim>>(
-      measure_open_parts(domain.layout, domain.halo, moved.geometry.psi, fitted.faces.open));
-  if (moved.state.separation.gap.empty()) return parts;
-  for (const Site c : listed_possible(
-           domain.layout, domain.layout.cells(), [](Site) { return true; },
-           [&](Site cell) { return moved.state.separation.gap[cell] > 0; }))
-    parts->cells.set(c, std::max(0.0, parts->cells[c] - moved.state.separation.gap[c]));
-  fill_open_ghosts(domain.layout, domain.halo, *parts);
-  return parts;
+  return room_beside(domain, moved.geometry.psi, fitted.faces.open, moved.state.separation);
 }
 
 // Empty volume at walls that phi still counts as liquid, m^Dim.
@@ -113,46 +119,83 @@ void blend(const Layout<Dim>& layout, const FaceField<Dim>& from, double part, F
     });
 }
 
-// Carries the volumes of cells. Where initial velocities need not fit, the first step takes what its trial found, or
-// without solids and gas a part of that (share_of_trial()); the trial itself carries nothing. Empty, or what fails.
+// A span in which volumes are carried with the flow of a state.
 template <int Dim>
-std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u, double span,
-                          State<Dim>& next) {
+struct VolumeSpan {
+  const State<Dim>& leading;        // its flow
+  double from, until;               // s
+  const OpenParts<Dim>* open;       // room at `from`; null: whole
+  const CellField<Dim>& level_set;  // at `from`, m
+};
+
+// Carries the volumes of cells. Where initial velocities need not fit, the first step takes what its trial found, or
+// without gas a part of that (share_of_trial()); the trial itself carries nothing. Empty, or what fails.
+template <int Dim>
+std::string carry_volumes(const Setup<Dim>& s, const VolumeSpan<Dim>& span, const FaceField<Dim>& u, State<Dim>& next) {
+  const State<Dim>& before = span.leading;
   const bool sets_off = before.step == 0 && s.volume_sets_off();
   if (sets_off && !before.trial) return {};
   const State<Dim>& known = sets_off ? *before.trial : before;
-  const Room<Dim> room = before.open ? Room<Dim>(*before.open, *known.open) : Room<Dim>();
-  const double from = before.time - before.since_solve;
-  const PlacedSources<Dim> sources(s, known, known.time - known.since_solve);
-  const CellValues brought = brought_by_feeds(s.domain, sources.feeds(), FedLiquid<Dim>(known), from, from + span);
+  const Room<Dim> room = span.open ? Room<Dim>(*span.open, *known.open) : Room<Dim>();
+  const double length = span.until - span.from;
+  const PlacedSources<Dim> sources(s, known, known.time - known.volume_lag);
+  const CellValues brought = brought_by_feeds(s.domain, sources.feeds(), FedLiquid<Dim>(known), span.from, span.until);
   const LedgerRules<Dim> ledger(s.divergence(), room, next.room());
   const std::optional<FaceField<Dim>> through = flow_through_faces(s.domain, room, before.gap_flow, u);
-  const double carried = s.perturbation.surface_advection * span;
-  if (!sets_off) return carry_liquid(s.domain, u, through ? *through : u, carried, ledger, brought, before, next);
-  FaceField<Dim> trial = known.exterior->volume_velocity(s.domain, s.fluids, known, span);
-  std::optional<FaceField<Dim>> trial_through = flow_through_faces(s.domain, room, known.gap_flow, trial);
-  if (s.solids.bodies.empty() && !s.fluids.has_gas())
-    blend(s.domain.layout, u, share_of_trial(s.domain, ledger, before.liquid, brought, span, u, trial), trial);
-  return carry_liquid(s.domain, trial, trial_through ? *trial_through : trial, carried, ledger, brought, before, next);
+  const VolumeCarriage<Dim> carriage{s.perturbation.surface_advection * length, span.level_set, before, ledger,
+                                     brought};
+  if (!sets_off) return carry_liquid(s.domain, u, through ? *through : u, carriage, next);
+  FaceField<Dim> trial = known.exterior->volume_velocity(s.domain, s.fluids, known, length);
+  FaceField<Dim> solved = flow_through_faces(s.domain, room, known.gap_flow, trial).value_or(trial);
+  if (!s.fluids.has_gas()) {
+    const FaceField<Dim>& initial = through ? *through : u;
+    const double part = share_of_trial(s.domain, ledger, before.liquid, brought, length, initial, solved);
+    blend(s.domain.layout, u, part, trial), blend(s.domain.layout, initial, part, solved);
+  }
+  return carry_liquid(s.domain, trial, solved, carriage, next);
 }
 
-// Volumes of cells from their last time to that of the solve. `by_sources`: becomes the share of each that sources
-// brought, if any are open. Empty, or what fails.
+// Volumes of cells over a span along u, among solids at distance psi (m) from then on. Returns what fails, or nothing.
+// `by_sources`: becomes the share of each cell that sources brought, if any are open.
 template <int Dim>
-std::string move_volumes(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u, const StepTimes& times,
-                         const StepGeometry<Dim>& geometry, State<Dim>& next,
-                         std::optional<CellField<Dim>>& by_sources) {
+std::string move_volumes(const Setup<Dim>& s, const VolumeSpan<Dim>& span, const FaceField<Dim>& u,
+                         const NodeField<Dim>& psi, State<Dim>& next, std::optional<CellField<Dim>>& by_sources) {
   if (!s.tracks_volume()) return {};
-  const double from = times.start - before.since_solve, until = times.start + times.lead;
-  const double span = before.since_solve + times.lead;
   std::optional<FaceField<Dim>> of_both;
-  if (s.fluids.has_gas()) of_both = before.exterior->volume_velocity(s.domain, s.fluids, before, span);
-  std::string fault = carry_volumes(s, before, of_both ? *of_both : u, span, next);
-  Brought<Dim> brought = add_source_shares(s.domain, PlacedSources<Dim>(s, next, until).openings(), geometry.psi,
-                                           before.now->u, from, until, next.liquid);
+  if (s.fluids.has_gas())
+    of_both = span.leading.exterior->volume_velocity(s.domain, s.fluids, span.leading, span.until - span.from);
+  std::string fault = carry_volumes(s, span, of_both ? *of_both : u, next);
+  Brought<Dim> brought = add_source_shares(s.domain, PlacedSources<Dim>(s, next, span.until).openings(), psi,
+                                           span.leading.now->u, span.from, span.until, next.liquid);
   next.expected_volume += brought.volume;
   next.work.sides += s.fluids.density() * brought.kinetic;
   by_sources = std::move(brought.share);
+  return fault;
+}
+
+// Volumes of cells from their last time to that of the solve.
+template <int Dim>
+std::string move_volumes_to_solve(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u,
+                                  const StepTimes& times, Moved<Dim>& moved) {
+  const CellField<Dim>& level_set = before.liquid_phi.empty() ? before.phi : before.liquid_phi;
+  const VolumeSpan<Dim> span{before, times.start - before.volume_lag, times.start + times.lead, before.open.get(),
+                             level_set};
+  return move_volumes(s, span, u, moved.geometry.psi, moved.state, moved.brought);
+}
+
+// Volumes of cells from the solve to the end of a step whose second half is made with the velocity before it, u: the
+// next step's flow would carry them along another way than level set and solids.
+template <int Dim>
+std::string move_volumes_to_end(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u,
+                                const StepTimes& times, const StepGeometry<Dim>& at_end, State<Dim>& next) {
+  const std::shared_ptr<const OpenParts<Dim>> at_solve = next.open;
+  const CellField<Dim> level_set = std::move(next.liquid_phi);
+  if (s.room_changes()) next.open = room_beside(s.domain, at_end.psi, at_solve->faces, next.separation);
+  next.volume_lag = 0;
+  std::optional<CellField<Dim>> by_sources;
+  std::string fault = move_volumes(s, {before, times.start + times.lead, next.time, at_solve.get(), level_set}, u,
+                                   at_end.psi, next, by_sources);
+  keep_level_of_volumes(s.domain, at_end.psi, s.divergence(), next);
   return fault;
 }
 
@@ -170,7 +213,7 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, bent, phi);
-  moved.failure = move_volumes(s, before, u, times, moved.geometry, moved.state, moved.brought);
+  moved.failure = move_volumes_to_solve(s, before, u, times, moved);
   std::optional<CellField<Dim>> by_level_set =
       transport_and_book(s, before, std::move(u), times.start, times.lead, closed, moved.state);
   if (!s.tracks_volume()) moved.brought = std::move(by_level_set);
@@ -285,10 +328,12 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
     next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
     book_feeds(s, next, solved.geometry, times.start + times.lead, times.start + times.dt, next);
   }
+  const FaceField<Dim> path = s.volume_lags() && !can ? u : FaceField<Dim>();
   (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, closed, next);
   go_on(leading, times, next);
   show_solids(s, next);
   if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));
+  if (s.volume_lags() && !can) solved.failure = move_volumes_to_end(s, before, path, times, solved.geometry, next);
   if (s.tracks_volume()) return;
   const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.separation);
   next.corrected_volume +=

@@ -11,4 +11,8 @@ template <int Dim>
 void measure_volumes(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const State<Dim>& state,
                      StepStats& stats);
 
+// Line for the log: how the liquid's volume is kept, and why.
+template <int Dim>
+std::string describe_volume(const Setup<Dim>& setup);
+
 }  // namespace seiche

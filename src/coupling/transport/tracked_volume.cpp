@@ -107,16 +107,16 @@ double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state) {
 }  // namespace
 
 template <int Dim>
-std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const FaceField<Dim>& through, double span,
-                         const Ledger<Dim>& ledger, const CellValues& brought, const State<Dim>& before,
-                         State<Dim>& state) {
-  const CellField<Dim>& phi = before.liquid_phi.empty() ? before.phi : before.liquid_phi;
-  const std::optional<FaceField<Dim>> path = path_beyond_sides(domain, before, ledger.divergence, u);
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const FaceField<Dim>& through,
+                         const VolumeCarriage<Dim>& carriage, State<Dim>& state) {
+  const State<Dim>& leading = carriage.leading;
+  const std::optional<FaceField<Dim>> path = path_beyond_sides(domain, leading, carriage.ledger.divergence, u);
   VolumeFlow<Dim> flow{path ? *path : u, through, domain.sides.any_inflow(),
-                       cells_beyond_inflows(domain.layout, domain.sides, before.time)};
-  for (const auto& [c, volume] : brought) flow.brought.emplace_back(c, volume / domain.layout.geometry().cell_volume());
-  const VolumeStep step =
-      carry_volume<Dim>(domain.layout, domain.halo, domain.ranks, flow, span, phi, ledger, state.liquid);
+                       cells_beyond_inflows(domain.layout, domain.sides, leading.time)};
+  for (const auto& [c, volume] : carriage.brought)
+    flow.brought.emplace_back(c, volume / domain.layout.geometry().cell_volume());
+  const VolumeStep step = carry_volume<Dim>(domain.layout, domain.halo, domain.ranks, flow, carriage.span,
+                                            carriage.level_set, carriage.ledger, state.liquid);
   state.expected_volume += (step.entered + step.swollen + step.fed) * domain.layout.geometry().cell_volume();
   state.spilled_volume += step.spill.moved * domain.layout.geometry().cell_volume();
   if (step.too_far == 0) return {};
@@ -133,6 +133,7 @@ template <int Dim>
 void keep_level_of_volumes(const Domain<Dim>& domain, const NodeField<Dim>& psi, Divergence divergence,
                            State<Dim>& state) {
   state.liquid_phi = state.phi;
+  if (state.liquid_beyond.empty()) return;
   Difference<Dim> difference(domain.layout, psi, state.phi, {divergence, state.room()}, state.liquid);
   state.liquid_beyond = std::move(difference.missing);
 }
@@ -218,8 +219,8 @@ void measure_tracked(const Domain<Dim>& domain, const Fluids& fluids, const Stat
                                                              const FaceField<D>&);                                \
   template double share_of_trial<D>(const Domain<D>&, const Ledger<D>&, const CellField<D>&, const CellValues&,   \
                                     double, const FaceField<D>&, const FaceField<D>&);                            \
-  template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, const FaceField<D>&, double,        \
-                                       const Ledger<D>&, const CellValues&, const State<D>&, State<D>&);          \
+  template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, const FaceField<D>&,                \
+                                       const VolumeCarriage<D>&, State<D>&);                                      \
   template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, const Ledger<D>&, State<D>&);             \
   template void keep_level_of_volumes<D>(const Domain<D>&, const NodeField<D>&, Divergence, State<D>&);           \
   template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);                    \

@@ -29,20 +29,28 @@ double share_of_trial(const Domain<Dim>& domain, const Ledger<Dim>& ledger, cons
                       const CellValues& brought, double span, const FaceField<Dim>& initial,
                       const FaceField<Dim>& trial);
 
-// Carries State::liquid from the time it belongs to over `span` (s) along u (m/s), `through` faces. `ledger`: room of
-// cells at both times, and of faces that it fits. `brought`: what feeds bring into owned cells over the span, m^Dim.
-// `before`: the state as it was. Books what passes the sides, and what the flow's divergence adds. Empty, or a text if
-// paths leave the halo. Collective.
+// What carries volumes beside the velocity.
 template <int Dim>
-std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const FaceField<Dim>& through, double span,
-                         const Ledger<Dim>& ledger, const CellValues& brought, const State<Dim>& before,
-                         State<Dim>& state);
+struct VolumeCarriage {
+  double span;                      // s
+  const CellField<Dim>& level_set;  // at its start, m
+  const State<Dim>& leading;        // whose flow it is
+  const LedgerRules<Dim>& ledger;   // room of cells at both times, and of faces that the flow fits
+  const CellValues& brought;        // by feeds into owned cells, m^Dim
+};
+
+// Carries State::liquid along u (m/s), `through` faces. Books what passes the sides, and what the flow's divergence
+// adds. Empty, or a text if paths leave the halo. Collective.
+template <int Dim>
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const FaceField<Dim>& through,
+                         const VolumeCarriage<Dim>& carriage, State<Dim>& state);
 
 // Brings level set and volume together after both were carried. Collective.
 template <int Dim>
 void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, const Ledger<Dim>& ledger, State<Dim>& state);
 
-// Keeps the level set at the time of the volumes, and what they have beyond it. psi: distance to the solids then, m.
+// Keeps the level set at the time of the volumes, and what they have beyond it if this is measured. psi: distance to
+// the solids then, m.
 template <int Dim>
 void keep_level_of_volumes(const Domain<Dim>& domain, const NodeField<Dim>& psi, Divergence divergence,
                            State<Dim>& state);

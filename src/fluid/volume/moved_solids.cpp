@@ -11,33 +11,44 @@
 namespace seiche {
 namespace {
 
-// Neighbour with the most room `after` that open faces joined before to a cell which a solid has covered since.
+// Neighbours of a cell that a solid has covered since, those with the most room `after` among the ones that open faces
+// joined to it. A front that passes a face in the middle of the step has closed it: if none is joined, those beside it
+// that had room before count.
 template <int Dim>
-std::optional<Site> host_of_covered(const Layout<Dim>& layout, const Ledger<Dim>& ledger, Site cell) {
-  std::optional<Site> host;
+std::vector<Site> hosts_of_covered(const Layout<Dim>& layout, const Ledger<Dim>& ledger, Site cell) {
+  constexpr double equal = 1e-9;  // so that mirror images have mirrored hosts
+  std::vector<Site> hosts;
   double most = 0;
-  for (int n = 0; n < neighbour_count<Dim>(); ++n) {
-    const IVec<Dim> o = neighbour_offset<Dim>(n);
-    const Site next = cell + step_of(layout, o);
-    const double room = ledger.after.of(next);
-    if (!(room > most) || !lies_in_domain(layout.geometry(), IVec<Dim>(layout.index(cell) + o))) continue;
-    if (ledger.room.joins(layout, cell, o)) most = room, host = next;
-  }
-  return host;
+  const auto find = [&](const auto& counts) {
+    for (int n = 0; n < neighbour_count<Dim>(); ++n) {
+      const IVec<Dim> o = neighbour_offset<Dim>(n);
+      const Site next = cell + step_of(layout, o);
+      const double room = ledger.after.of(next);
+      if (room == 0 || room <= most - equal || !counts(o, next)) continue;
+      if (!lies_in_domain(layout.geometry(), IVec<Dim>(layout.index(cell) + o))) continue;
+      if (room > most + equal) hosts.clear();
+      most = std::max(most, room);
+      hosts.push_back(next);
+    }
+  };
+  find([&](const IVec<Dim>& o, Site) { return ledger.room.joins(layout, cell, o); });
+  if (hosts.empty())
+    find([&](const IVec<Dim>& o, Site next) { return o.squaredNorm() == 1 && ledger.room.of(next) > 0; });
+  return hosts;
 }
 
-// Moves the liquid of covered cells to their hosts.
+// Moves the liquid of covered cells to their hosts, in equal parts.
 template <int Dim>
 void leave_covered(const Layout<Dim>& layout, const Halo<Dim>& halo, const Ledger<Dim>& ledger, CellField<Dim>& share) {
   const CellField<Dim> before = share;
   const std::vector<Site> covered = listed_possible(
       layout, cells_around(layout, 1), [&](Site c) { return !all_zero(before.data() + c); },
       [&](Site c) { return before[c] != 0 && ledger.after.of(c) == 0; });
-  for (const Site c : covered)
-    if (const std::optional<Site> host = host_of_covered(layout, ledger, c)) {
-      share[*host] += before[c];
-      share[c] -= before[c];
-    }
+  for (const Site c : covered) {
+    const std::vector<Site> hosts = hosts_of_covered(layout, ledger, c);
+    for (const Site host : hosts) share[host] += before[c] / double(hosts.size());
+    if (!hosts.empty()) share[c] -= before[c];
+  }
   fill_share_ghosts(layout, halo, share);
 }
 
@@ -77,18 +88,24 @@ struct PressedCells {
   }
 };
 
-// Jacobi steps of a diffusion: dV_c = sum over open faces of k (e_n - e_c), k = min(K_c, K_n)/(2 Dim), with e what a
-// cell has beyond its due, over K.
+// Brings e, what cells have beyond their due over K, near to its mean: dV_c = -(A e)_c, the sum over open faces of
+// k (e_n - e_c), k = min(K_c, K_n)/(2 Dim). A/K has eigenvalues in [0, 2]. Chebyshev steps (Saad 2003, algorithm 12.1)
+// reduce those above `slowest`, waves shorter than some twenty cells, by 1/T_n(theta/delta) = 1/60.
 template <int Dim>
 void even_out_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Room<Dim>& room,
                      const PressedCells<Dim>& near, CellField<Dim>& share) {
-  constexpr int steps = 10;
+  constexpr int steps = 24;
+  constexpr double slowest = 0.02, theta = (2 + slowest) / 2, delta = (2 - slowest) / 2;
   const auto excess = [&](Site c) { return (share[c] - near.due[c]) / room.of(c); };
   const std::vector<Site> cells = listed_possible(
       layout, layout.cells(), [&](Site c) { return any_marked(near.among.data() + c); },
       [&](Site c) { return near.among[c] != 0; });
   std::vector<double> change(cells.size());
+  double rho = delta / theta;
   for (int n = 0; n < steps; ++n) {
+    const double next = n == 0 ? rho : 1 / (2 * theta / delta - rho);
+    const double kept = n == 0 ? 0 : next * rho, taken = n == 0 ? 1 / theta : 2 * next / delta;
+    rho = next;
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const Site c = cells[k];
       double sum = 0;
@@ -96,7 +113,7 @@ void even_out_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Roo
         for (const Site m : {c - layout.stride(a), c + layout.stride(a)})
           if (near.among[m] && room.through(a, std::max(c, m)) > 0)
             sum += std::min(room.of(c), room.of(m)) / (2 * Dim) * (excess(m) - excess(c));
-      change[k] = sum;
+      change[k] = kept * change[k] + taken * sum;
     }
     for (std::size_t k = 0; k < cells.size(); ++k) share[cells[k]] += change[k];
     halo.fill_ghosts(share);

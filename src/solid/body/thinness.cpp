@@ -1,5 +1,7 @@
 #include "solid/body/thinness.h"
 
+#include <limits>
+
 #include "geometry/mesh/distance.h"
 
 namespace seiche {
@@ -32,6 +34,12 @@ std::vector<Vec<Dim>> samples_of(const ElasticMesh<Dim>& mesh, int e) {
   return samples;
 }
 
+// Number of samples along each axis, a quarter of a cell apart or less, with one in the middle.
+template <int Dim>
+Vec<Dim> samples_across(const Vec<Dim>& low, const Vec<Dim>& high, double h) {
+  return 2 * ((high - low) / (h / 2)).array().ceil() + 1;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -49,15 +57,20 @@ template <int Dim>
 bool is_thinner_than(const Body<Dim>& body, double h, const Vec<Dim>& lower, const Vec<Dim>& upper) {
   // A container, the outside of a shape, goes on beyond the domain.
   if (body.spec().shape.kind == "expression" || body.spec().shape.invert) return false;
-  Vec<Dim> low = upper, high = lower;
+  const double most = body.spec().shape.has_facets() ? most_samples_of_mesh : most_samples;
+  Vec<Dim> low = Vec<Dim>::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& x : body.contact_surface().points) {
     low = low.cwiseMin(truncate<Dim>(x));
     high = high.cwiseMax(truncate<Dim>(x));
   }
-  low = low.cwiseMax(lower), high = high.cwiseMin(upper);
-  const Vec<Dim> count = ((high - low) / (h / 4)).array().ceil() + 1;
-  if (count.minCoeff() < 1 || count.prod() > (body.spec().shape.has_facets() ? most_samples_of_mesh : most_samples))
-    return false;
+  if (low[0] > high[0]) return false;
+  if (samples_across(low, high, h).prod() > most) {
+    constexpr double beyond = 2;  // cells: thickness beyond the sides counts
+    const Vec<Dim> margin = Vec<Dim>::Constant(beyond * h);
+    low = low.cwiseMax(lower - margin), high = high.cwiseMin(upper + margin);
+  }
+  const Vec<Dim> count = samples_across(low, high, h);
+  if ((high - low).minCoeff() < 0 || count.prod() > most) return false;
   for (int n = 0; n < int(count.prod()); ++n) {
     Vec<Dim> x = low;
     for (int a = 0, rest = n; a < Dim; rest /= int(count[a]), ++a)

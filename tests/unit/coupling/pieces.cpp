@@ -56,6 +56,19 @@ Geometry<3> unit_box(int cells, bool periodic) {
 }
 
 // A plate of half a cell that has just come in through the upper side. Before, it lay outside of the domain.
+// Boxes `thickness` cells thick with their lower side at y = `bottom`.
+bool box_is_thin(double thickness, double bottom) {
+  Scene s = test::box_scene(2, 16);
+  SolidSpec box;
+  box.name = "box";
+  box.kind = SolidKind::fixed;
+  box.shape.kind = "box";
+  box.shape.lower = {-0.5, bottom, 0};
+  box.shape.upper = {1.5, bottom + thickness / 16, 0};
+  s.solids.push_back(box);
+  return Setup<2>(s, Communicator()).solids.bodies[0].is_thin();
+}
+
 template <int Dim>
 void check_dry_beside_new_plate() {
   Scene s = test::box_scene(Dim, 16);
@@ -205,6 +218,15 @@ TEST_CASE("liquid in a widening slit keeps its kinetic energy w u^2 and takes up
   }
   CHECK(velocity_in_slit<2>(0.1, 0.05) == 7);        // a narrowing slit
   CHECK(velocity_in_slit<2>(0.1, least_open) == 7);  // no slit any more
+}
+
+TEST_CASE("boxes count as thin if no ball of a cell fits in, wherever they begin") {
+  CHECK(box_is_thin(0.9, 0.3));
+  CHECK_FALSE(box_is_thin(1.2, 0.3));  // no sample a quarter of a cell apart lay in its middle
+  CHECK_FALSE(box_is_thin(3, 0.3));
+  CHECK_FALSE(box_is_thin(3, -3.0 / 16));  // its top is the floor of the domain
+  CHECK_FALSE(box_is_thin(3, 1.5));        // it may come in later
+  CHECK(box_is_thin(0.9, 1.5));
 }
 
 TEST_CASE("a thin plate that comes in from outside does not wet the air beside it") {
