@@ -44,11 +44,11 @@ void gather_rooms(std::vector<RoomLayers>& rooms, const Communicator& ranks) {
 
 // Faces as static solids alone leave them: gates open, and floats let liquid pass.
 template <int Dim>
-FaceGeometry<Dim> faces_among_static(const StepGeometry<Dim>& geometry) {
+FaceGeometry<Dim> faces_among_static(const Solids<Dim>& solids, const StepGeometry<Dim>& geometry) {
   FaceGeometry<Dim> faces = geometry.faces;
-  for (const auto& shares : geometry.shares) {
-    if (!shares) continue;  // static
-    for (const FaceShare& s : *shares) {
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
+    if (!solids.bodies[k].moves() || !geometry.shares[k]) continue;
+    for (const FaceShare& s : *geometry.shares[k]) {
       faces.open.add(s.axis, s.face, s.closed);
       if (faces.kind_at(s.axis, s.face) == FaceKind::closed) faces.kind.set(s.axis, s.face, char(FaceKind::open));
     }
@@ -59,14 +59,14 @@ FaceGeometry<Dim> faces_among_static(const StepGeometry<Dim>& geometry) {
 }  // namespace
 
 template <int Dim>
-double fall_of_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
-                      const StepGeometry<Dim>& geometry) {
+double fall_of_liquid(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                      const State<Dim>& state, const StepGeometry<Dim>& geometry) {
   const Vec<Dim> g = truncate<Dim>(fluids.gravity.at(0));
   if (!(g.norm() > 0) || !domain.ranks.any(!geometry.psi.empty())) return 0;  // a rank may have no cells
   const auto& grid = domain.layout.geometry();
   const CellField<Dim> everywhere(domain.layout, 1.0);
   const AirRegions<Dim> parts =
-      find_air_regions(domain.layout, domain.halo, domain.ranks, everywhere, faces_among_static(geometry));
+      find_air_regions(domain.layout, domain.halo, domain.ranks, everywhere, faces_among_static(solids, geometry));
   // Layer of a cell: its height over the lowest corner of the domain, in cells.
   const Vec<Dim> up = -g.normalized(), size = grid.cells.template cast<double>();
   const double low = up.cwiseProduct(size).cwiseMin(0.0).sum(), high = up.cwiseProduct(size).cwiseMax(0.0).sum();
@@ -87,7 +87,9 @@ double fall_of_liquid(const Domain<Dim>& domain, const Fluids& fluids, const Sta
   return liquid > 0 ? domain.layout.h() * fall / liquid : 0;
 }
 
-template double fall_of_liquid<2>(const Domain<2>&, const Fluids&, const State<2>&, const StepGeometry<2>&);
-template double fall_of_liquid<3>(const Domain<3>&, const Fluids&, const State<3>&, const StepGeometry<3>&);
+template double fall_of_liquid<2>(const Domain<2>&, const Fluids&, const Solids<2>&, const State<2>&,
+                                  const StepGeometry<2>&);
+template double fall_of_liquid<3>(const Domain<3>&, const Fluids&, const Solids<3>&, const State<3>&,
+                                  const StepGeometry<3>&);
 
 }  // namespace seiche

@@ -167,14 +167,14 @@ void account_drains(const Domain<Dim>& domain, const Fluids& fluids, const State
 }
 
 template <int Dim>
-void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const State<Dim>& state,
                     const StepGeometry<Dim>& geometry, SceneAccount& account) {
   const NodeField<Dim>& psi = geometry.psi;
   LiquidAtStart& liquid = account.start.liquid;
   const double whole = liquid_volume(domain, state.phi, no_solids(domain));
   liquid.volume = liquid_volume(domain, state.phi, psi);
   liquid.mass = liquid.volume * fluids.density();
-  liquid.fall = fall_of_liquid(domain, fluids, state, geometry);
+  liquid.fall = fall_of_liquid(domain, fluids, solids, state, geometry);
   if (whole - liquid.volume > all * whole) liquid.in_solids = whole - liquid.volume;
   account_regions(domain, fluids.liquid, psi, account);
   account_sources(domain, fluids, state, psi, account);
@@ -242,7 +242,7 @@ template <int Dim>
 SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                            const DomainSpec& extent, const State<Dim>& state, const StepGeometry<Dim>& geometry) {
   SceneAccount account;
-  account_liquid(domain, fluids, state, geometry, account);
+  account_liquid(domain, fluids, solids, state, geometry, account);
   account.start.solids = account_solids(solids, extent, account.warnings);
   const std::vector<Joint>& joints = solids.joints.list;
   for (const Joint& joint : joints) warn_of_far_joint(solids, joint, account);

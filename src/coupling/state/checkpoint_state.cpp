@@ -259,8 +259,7 @@ void visit_cells(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   visitor.field("pressure", domain.layout.cells(), state.pressure);
   if (s.tracks_volume()) visitor.field("liquid", domain.layout.cells(), state.liquid);
   if (s.volume_lags()) visitor.field("liquid_phi", domain.layout.cells(), state.liquid_phi);
-  if (s.volume_meets_void() && visitor.has("liquid_beyond"))
-    visitor.field("liquid_beyond", domain.layout.cells(), state.liquid_beyond);
+  if (s.volume_meets_void()) visitor.field("liquid_beyond", domain.layout.cells(), state.liquid_beyond);
   if (s.fluids.liquid.separates) visitor.field("gap", domain.layout.cells(), state.separation.gap);
   if (s.solids.may_seal()) visitor.field("sealed", domain.layout.cells(), state.sealed);
   if (!visitor.loads()) return;

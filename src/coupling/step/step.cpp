@@ -55,10 +55,13 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double 
   Predicted<Dim> predicted = predict_velocity(s, before, moved, times, phases);
   if (!predicted.failure.empty()) return failed<Dim>(predicted.failure);
   const std::optional<CellField<Dim, char>> closed = std::exchange(moved.closed, std::nullopt);
+  std::optional<NodeField<Dim>> psi_at_solve;  // where the solve will move solids to the end of the step
+  if (s.volume_lags() && moved.end) psi_at_solve = moved.geometry.psi;
   Attempt<Dim> solved = s.volume_meets_void()
                             ? solve_within_room(s, before, std::move(moved), std::move(predicted), times, phases)
                             : solve_and_plan(s, before, std::move(moved), predicted, times, phases);
-  if (s.volume_lags()) keep_level_of_volumes(s.domain, solved.geometry.psi, s.divergence(), solved.state);
+  if (s.volume_lags())
+    keep_level_of_volumes(s.domain, psi_at_solve ? *psi_at_solve : solved.geometry.psi, s.divergence(), solved.state);
   if (times.leapfrog && solved.failure.empty()) move_second_half(s, before, times, *closed, phases, solved);
   if (solved.failure.empty() && !times.leapfrog) show_solids(s, solved.state);
   if (solved.failure.empty()) solved.failure = fly_after_solve(s, times, solved);

@@ -129,7 +129,8 @@ struct VolumeSpan {
 };
 
 // Carries the volumes of cells. Where initial velocities need not fit, the first step takes what its trial found, or
-// without gas a part of that (share_of_trial()); the trial itself carries nothing. Empty, or what fails.
+// without gas and beside solids that move a part of that (share_of_trial()); the trial itself carries nothing. Empty,
+// or what fails.
 template <int Dim>
 std::string carry_volumes(const Setup<Dim>& s, const VolumeSpan<Dim>& span, const FaceField<Dim>& u, State<Dim>& next) {
   const State<Dim>& before = span.leading;
@@ -147,7 +148,7 @@ std::string carry_volumes(const Setup<Dim>& s, const VolumeSpan<Dim>& span, cons
   if (!sets_off) return carry_liquid(s.domain, u, through ? *through : u, carriage, next);
   FaceField<Dim> trial = known.exterior->volume_velocity(s.domain, s.fluids, known, length);
   FaceField<Dim> solved = flow_through_faces(s.domain, room, known.gap_flow, trial).value_or(trial);
-  if (!s.fluids.has_gas()) {
+  if (!s.fluids.has_gas() && (s.solids.bodies.empty() || any_moves(s.solids))) {
     const FaceField<Dim>& initial = through ? *through : u;
     const double part = share_of_trial(s.domain, ledger, before.liquid, brought, length, initial, solved);
     blend(s.domain.layout, u, part, trial), blend(s.domain.layout, initial, part, solved);
