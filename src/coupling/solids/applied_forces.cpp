@@ -30,9 +30,9 @@ struct MovedBody {
   Vec3 center;              // of mass, m
   Eigen::Matrix3d inertia;  // about it, in world axes, kg m^2
 
-  explicit MovedBody(const Participant<Dim>& p) : participant(p) {
-    const RigidState* r = p.rigid();
-    pose = r ? rigid_pose(p.body(), *r) : p.place(0, 0, 0).pose;
+  explicit MovedBody(const Participant<Dim>& p)
+      : MovedBody(p, p.rigid() ? rigid_pose(p.body(), *p.rigid()) : p.place(0, 0, 0).pose) {}
+  MovedBody(const Participant<Dim>& p, const Pose& at) : participant(p), pose(at) {
     center = pose.apply(p.body().mass().center);
     inertia = pose.rotation * p.body().mass().inertia * pose.rotation.transpose();
   }
@@ -71,6 +71,17 @@ Twist6 field_on(const Force<Dim>& force, const MovedBody<Dim>& body, double t) {
   }
   Twist6 f;
   f << body.mass() * force.field_at(body.center, t), torque;
+  return f;
+}
+
+// Force and torque of a load, turned with the solid if it says so.
+template <int Dim>
+Twist6 load_on(const Force<Dim>& load, const MovedBody<Dim>& body, double t) {
+  const Eigen::Matrix3d turn = load.spec.turns_with_solid ? body.pose.rotation : Eigen::Matrix3d::Identity();
+  const Vec3 force = turn * load.force(Vec3::Zero(), t),
+             arm = load.spec.at ? Vec3(body.pose.apply(*load.spec.at) - body.center) : Vec3(0, 0, 0);
+  Twist6 f;
+  f << force, arm.cross(force) + turn * load.spec.axis.normalized() * load.torque(Vec3::Zero(), t);
   return f;
 }
 
@@ -116,7 +127,7 @@ class ForcesOnSolids {
  private:
   TwistForce on_twist(const Force<Dim>& force, const MovedBody<Dim>& body) const {
     if (force.is_field()) return {field_on(force, body, t_), Slope6::Zero()};
-    if (force.spec.kind == ForceKind::load) return {load_on(force, body), Slope6::Zero()};
+    if (force.spec.kind == ForceKind::load) return {load_on(force, body, t_), Slope6::Zero()};
     if (force.spec.kind == ForceKind::wind) return wind_on(force, body);
     TwistForce drag;
     drag.slope = std::max(0.0, force.rate(body.center, t_)) * mass_of_twist(body);
@@ -124,16 +135,6 @@ class ForcesOnSolids {
     w.template head<3>() = force.velocity(body.center, t_);
     drag.force = drag.slope * w;
     return drag;
-  }
-
-  // Force and torque of a load, turned with the solid if it says so.
-  Twist6 load_on(const Force<Dim>& load, const MovedBody<Dim>& body) const {
-    const Eigen::Matrix3d turn = load.spec.turns_with_solid ? body.pose.rotation : Eigen::Matrix3d::Identity();
-    const Vec3 force = turn * load.force(Vec3::Zero(), t_),
-               arm = load.spec.at ? Vec3(body.pose.apply(*load.spec.at) - body.center) : Vec3(0, 0, 0);
-    Twist6 f;
-    f << force, arm.cross(force) + turn * load.spec.axis.normalized() * load.torque(Vec3::Zero(), t_);
-    return f;
   }
 
   // F = C rho/2 int |w - v| (w - v) over the dry surface that faces it.
@@ -297,6 +298,21 @@ std::unique_ptr<const Interaction<Dim>> make_applied_forces(const Domain<Dim>& d
   return std::make_unique<AppliedForces<Dim>>(domain, forces);
 }
 
+template <int Dim>
+Eigen::Matrix<double, 6, 1> steady_load(const std::vector<Force<Dim>>& forces, const Participant<Dim>& solid,
+                                        const Pose& pose, double t) {
+  const MovedBody<Dim> body(solid, pose);
+  Twist6 sum = Twist6::Zero();
+  for (const Force<Dim>& force : forces) {
+    if (!force.acts_on_solid(solid.body().spec().name) || !force.acts_at(body.center)) continue;
+    if (force.is_field()) sum += field_on(force, body, t);
+    if (force.spec.kind == ForceKind::load) sum += load_on(force, body, t);
+  }
+  return sum;
+}
+
+template Twist6 steady_load<2>(const std::vector<Force<2>>&, const Participant<2>&, const Pose&, double);
+template Twist6 steady_load<3>(const std::vector<Force<3>>&, const Participant<3>&, const Pose&, double);
 template std::unique_ptr<const Interaction<2>> make_applied_forces<2>(const Domain<2>&, const std::vector<Force<2>>&);
 template std::unique_ptr<const Interaction<3>> make_applied_forces<3>(const Domain<3>&, const std::vector<Force<3>>&);
 

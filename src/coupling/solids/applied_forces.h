@@ -12,4 +12,10 @@ template <int Dim>
 std::unique_ptr<const Interaction<Dim>> make_applied_forces(const Domain<Dim>& domain,
                                                             const std::vector<Force<Dim>>& forces);
 
+// Force (N) and torque about the centre of mass (N m) by which fields and loads act at time t (s) on a rigid solid,
+// were it at `pose`.
+template <int Dim>
+Eigen::Matrix<double, 6, 1> steady_load(const std::vector<Force<Dim>>& forces, const Participant<Dim>& solid,
+                                        const Pose& pose, double t);
+
 }  // namespace seiche

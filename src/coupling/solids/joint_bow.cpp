@@ -1,8 +1,10 @@
 #include "coupling/solids/joint_bow.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/disjoint_sets.h"
+#include "coupling/solids/applied_forces.h"
 #include "coupling/solids/kind_rigid.h"
 #include "coupling/solids/rigid_coupling.h"
 #include "solid/rigid/motion.h"
@@ -49,7 +51,14 @@ JointBow<Dim>::JointBow(const JointSet<Dim>& joints, const CoupledStep<Dim>& ste
   end_.resize(joints.list.size());
   y_.setZero(Eigen::Index(anchored_.size()));
   delta_.assign(motion.bodies().size(), Rate::Zero());
-  factor();
+  factor(motion_.rows(), inverse_masses(motion_.bodies()));
+}
+
+// delta = M^-1 C'y with the rows.
+template <int Dim>
+void JointBow<Dim>::set_displacements(const std::vector<PlacedRow>& rows) {
+  delta_ = loads(rows, y_);
+  for (std::size_t k = 0; k < delta_.size(); ++k) delta_[k] = inverse_[k] * delta_[k];
 }
 
 // Groups of rigid bodies, joined by rows; those that a row holds to what is prescribed.
@@ -109,13 +118,12 @@ std::vector<typename JointBow<Dim>::Inverse> JointBow<Dim>::inverse_masses(const
   return inverse;
 }
 
-// W of the rows where the solve stands.
+// W of the rows.
 template <int Dim>
-void JointBow<Dim>::factor() {
-  const std::vector<Inverse> inverse = inverse_masses(motion_.bodies());
+void JointBow<Dim>::factor(const std::vector<PlacedRow>& placed, const std::vector<Inverse>& inverse) {
   std::vector<Eigen::Triplet<double>> rows, columns;
   for (std::size_t i = 0; i < anchored_.size(); ++i)
-    for (const auto& [k, part] : motion_.rows()[i].parts) {
+    for (const auto& [k, part] : placed[i].parts) {
       if (!anchored_[i]) continue;
       const Rate moved = inverse[std::size_t(k)] * part;
       for (int a = 0; a < 6; ++a) {
@@ -148,19 +156,23 @@ std::vector<typename JointBow<Dim>::Rate> JointBow<Dim>::loads(const std::vector
   return sums;
 }
 
-// Fixed point of delta = M^-1 C'y at the displaced places and y <- y - W^+ c, with W where the solve stands.
+// Fixed point of delta = M^-1 C'y at the displaced places and y <- y - W^+ c, with W where the solve stands; once gaps
+// stop falling, where the bodies are. Starts from the y it ended with before.
 template <int Dim>
 bool JointBow<Dim>::close(const JointedBodies& middle, const Eigen::VectorXd& v, std::vector<PlacedRow>& rows) {
   constexpr int most_turns = 20;
+  constexpr double slow = 0.5;
   inverse_ = inverse_masses(middle);
+  double before = std::numeric_limits<double>::infinity();
   for (int turn = 0; turn < most_turns; ++turn) {
     rows = motion_.rows_after(displaced_bodies(middle, delta_, 1), v, motion_.horizon() / 2);
     const Eigen::VectorXd c = values(rows);
-    const bool closed = motion_.excess(c) <= 1;
-    if (!closed) y_ -= constraints_.multipliers(c);
-    delta_ = loads(rows, y_);
-    for (std::size_t k = 0; k < delta_.size(); ++k) delta_[k] = inverse_[k] * delta_[k];
-    if (closed && turn > 0) return true;
+    const double excess = motion_.excess(c);
+    if (turn > 1 && excess > slow * before) factor(rows, inverse_);
+    if (excess > 1) y_ -= constraints_.multipliers(c);
+    set_displacements(rows);
+    if (excess <= 1) return true;
+    before = excess;
   }
   return false;
 }
@@ -228,13 +240,15 @@ void JointBow<Dim>::add_to_unknowns(std::size_t place, const Rate& load, Eigen::
     if (!coupling_.is_held(first + i)) impulse[first + i] += own[i];
 }
 
-// Bows that do not close, as near singular places of closed loops, are left out.
+// Bows that do not close, as near singular places of closed loops, are left out until the solve ends: turns that now
+// take them and now do not would not end.
 template <int Dim>
 Eigen::VectorXd JointBow<Dim>::follow(const Eigen::VectorXd& v) {
   const Eigen::VectorXd before = impulse_;
   const JointedBodies middle = motion_.bodies_after(v, motion_.horizon() / 2);
   std::vector<PlacedRow> rows;
-  if (!close(middle, v, rows)) {
+  if (fails_ || !close(middle, v, rows)) {
+    fails_ = true;
     y_.setZero();
     std::fill(delta_.begin(), delta_.end(), Rate::Zero());
   }
@@ -244,7 +258,7 @@ Eigen::VectorXd JointBow<Dim>::follow(const Eigen::VectorXd& v) {
 
 template <int Dim>
 Eigen::VectorXd JointBow<Dim>::given() const {
-  Eigen::VectorXd sum = impulse_by_gravity();
+  Eigen::VectorXd sum = impulse_by_forces();
   std::vector<char> seen(joints_.list.size(), 0);
   for (std::size_t i = 0; i < anchored_.size(); ++i) {
     const PlacedRow& row = motion_.rows()[i];
@@ -257,19 +271,28 @@ Eigen::VectorXd JointBow<Dim>::given() const {
   return sum;
 }
 
-// (H^3 + H_before^3)/48 grad |a|^2 with a = g - M^-1 C'y, C a = 0. With all but the places of the bodies held the
-// gradient is -2 y'dC a, and second derivatives of gaps commute: -2 (dC along a)'y.
+// Force and torque of the scene's fields and loads on each place, were the bodies displaced.
 template <int Dim>
-Eigen::VectorXd JointBow<Dim>::impulse_by_gravity() const {
+std::vector<typename JointBow<Dim>::Rate> JointBow<Dim>::forces_on(const JointedBodies& bodies) const {
+  std::vector<Rate> sums(bodies.size(), Rate::Zero());
+  if (step_.setup.forces.empty()) return sums;
+  for (std::size_t i = 0; i < dry_.size(); ++i)
+    for (const auto& [k, part] : motion_.rows()[i].parts)
+      if (dry_[i] && k < joints_.solids && step_.state.solids[std::size_t(k)].rigid())
+        sums[std::size_t(k)] = steady_load(step_.setup.forces, step_.state.solids[std::size_t(k)],
+                                           bodies[std::size_t(k)].pose, step_.state.time - 0.5 * step_.dt);
+  return sums;
+}
+
+// (H^3 + H_before^3)/48 grad |a|^2 with a = f - M^-1 C'y, C a = 0, f of gravity, fields and loads. With all but the
+// places of the bodies held the gradient is 2 M df along a - 2 y'dC a, and second derivatives of gaps commute:
+// -2 (dC along a)'y.
+template <int Dim>
+Eigen::VectorXd JointBow<Dim>::impulse_by_forces() const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(coupling_.size());
   if (std::find(dry_.begin(), dry_.end(), 1) == dry_.end()) return sum;
-  const State<Dim>& state = step_.state;
-  const Vec3 g = step_.setup.fluids.gravity.of_step(state.time, step_.dt);
   const std::vector<Inverse> inverse = inverse_masses(motion_.bodies());
-  std::vector<Rate> a(delta_.size(), Rate::Zero());
-  for (std::size_t k = 0; k < a.size(); ++k)
-    for (int i = 0; i < Dim; ++i)
-      if (inverse[k](i, i) > 0) a[k][i] = g[i];
+  std::vector<Rate> a = free_accelerations(inverse);
   Eigen::VectorXd Ca = Eigen::VectorXd::Zero(y_.size());
   for (std::size_t i = 0; i < dry_.size(); ++i)
     for (const auto& [k, part] : motion_.rows()[i].parts)
@@ -279,24 +302,52 @@ Eigen::VectorXd JointBow<Dim>::impulse_by_gravity() const {
   double fastest = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {
     a[k] -= inverse[k] * load[k];
-    const double size = k < state.solids.size() ? state.solids[k].body().radius() : 1;
+    const double size = k < step_.state.solids.size() ? step_.state.solids[k].body().radius() : 1;
     fastest =
         std::max(fastest, a[k].template tail<3>().norm() + (size > 0 ? a[k].template head<3>().norm() / size : 0));
   }
-  if (fastest == 0) return sum;
-  const double way = 1e-5 / fastest;
+  if (fastest > 0) add_changes(a, 1e-5 / fastest, y, sum);
+  return sum;
+}
+
+// Accelerations by gravity, fields and loads alone.
+template <int Dim>
+std::vector<typename JointBow<Dim>::Rate> JointBow<Dim>::free_accelerations(const std::vector<Inverse>& inverse) const {
+  const Vec3 g = step_.setup.fluids.gravity.of_step(step_.state.time, step_.dt);
+  const std::vector<Rate> forces = forces_on(motion_.bodies());
+  std::vector<Rate> a(delta_.size(), Rate::Zero());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    for (int i = 0; i < Dim; ++i)
+      if (inverse[k](i, i) > 0) a[k][i] = g[i];
+    if (!forces[k].isZero(0)) a[k] += inverse[k] * forces[k];
+  }
+  return a;
+}
+
+// Adds (H^3 + H_before^3)/24 (M df - (dC)'y), the changes over bodies displaced by `way` a, by central differences.
+template <int Dim>
+void JointBow<Dim>::add_changes(const std::vector<Rate>& a, double way, const Eigen::VectorXd& y,
+                                Eigen::VectorXd& sum) const {
+  const auto weight = [&](std::size_t row) {
+    const double before = step_.state.joints[std::size_t(motion_.rows()[row].joint)].interval;
+    return (std::pow(motion_.horizon(), 3) + std::pow(before, 3)) / (48 * way);
+  };
   const Eigen::VectorXd still = motion_.velocity_in_state();
-  const auto ahead = motion_.rows_after(displaced_bodies(motion_.bodies(), a, way), still, 0),
-             behind = motion_.rows_after(displaced_bodies(motion_.bodies(), a, -way), still, 0);
+  const JointedBodies there = displaced_bodies(motion_.bodies(), a, way),
+                      back = displaced_bodies(motion_.bodies(), a, -way);
+  const auto ahead = motion_.rows_after(there, still, 0), behind = motion_.rows_after(back, still, 0);
+  std::vector<double> of_body(a.size(), 0);
   for (std::size_t i = 0; i < dry_.size(); ++i) {
     if (!dry_[i]) continue;
-    const double before = state.joints[std::size_t(motion_.rows()[i].joint)].interval;
-    const double weight = -(std::pow(motion_.horizon(), 3) + std::pow(before, 3)) / 24 * y[Eigen::Index(i)];
-    for (std::size_t n = 0; n < ahead[i].parts.size(); ++n)
-      add_to_unknowns(std::size_t(ahead[i].parts[n].first),
-                      weight / (2 * way) * (ahead[i].parts[n].second - behind[i].parts[n].second), sum);
+    for (std::size_t n = 0; n < ahead[i].parts.size(); ++n) {
+      const auto k = std::size_t(ahead[i].parts[n].first);
+      of_body[k] = weight(i);
+      add_to_unknowns(k, -weight(i) * y[Eigen::Index(i)] * (ahead[i].parts[n].second - behind[i].parts[n].second), sum);
+    }
   }
-  return sum;
+  const std::vector<Rate> forces = forces_on(there), before = forces_on(back);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (forces[k] != before[k]) add_to_unknowns(k, of_body[k] * (forces[k] - before[k]), sum);
 }
 
 template <int Dim>

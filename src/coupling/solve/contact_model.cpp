@@ -70,6 +70,7 @@ void AddedMassModel::learn(const Eigen::VectorXd& v, const Eigen::VectorXd& g) {
 
 namespace {
 
+constexpr std::size_t few = 30;  // bodies
 constexpr int most_corrections = 30;
 // Tolerance for the agreement of contact and liquid: a multiple of the tolerance of the liquid's solves, and at least
 // the accuracy that round-off in the model's factors permits.
@@ -81,12 +82,17 @@ template <int Dim>
 bool without_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
                      double dt, const SolidCoupling<Dim>& coupling, const InertiaResponse& alone,
                      const ContactOptions& options, ContactInLiquid& r) {
-  constexpr std::size_t few = 30;
   if (coupling.potential || coupling.bodies.size() <= few) return false;
   std::optional<ContactReport> report = report_without_contact(scene, motions, horizon, dt, alone, options);
   if (report) r.contact = std::move(*report);
   r.agreed = report.has_value();
   return r.agreed;
+}
+
+// True where no liquid touches many bodies, which joints hold. Their rows are sparse without the model.
+template <int Dim>
+bool is_long_dry_chain(const SolidCoupling<Dim>& coupling) {
+  return coupling.bodies.size() > few && coupling.joints && !coupling.joints->any_wet();
 }
 
 }  // namespace
@@ -104,11 +110,12 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
   r.contact.failure = alone.failure;
   if (!alone.failure.empty()) return r;
   if (without_contact(scene, motions, horizon, dt, coupling, alone, options, r)) return r;
+  r.contact.velocity = start;
+  if (is_long_dry_chain(coupling)) return r;
   AddedMassModel model(Eigen::MatrixXd(coupling.mass) + solver.added_mass_estimate(), alone.velocity, alone.gradient,
                        coupling.freedom, coupling.J.constraints,
                        coupling.joints ? coupling.joints->slack : Eigen::VectorXd());
   int newton_iterations = 0;
-  r.contact.velocity = start;
   while (r.corrections < most_corrections) {
     r.contact =
         solve_contact(scene, motions, horizon, dt, model, options, r.contact.velocity, coupling.potential.get());

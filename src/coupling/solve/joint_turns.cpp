@@ -75,13 +75,17 @@ Eigen::VectorXd JointTurns<Dim>::follow_bow(const Eigen::VectorXd& v) const {
   return motion_.bow ? mass_->solve(motion_.bow->follow(v)) : Eigen::VectorXd::Zero(v.size());
 }
 
+// Changes shrink by a steady factor, which tells what the next one would be.
 template <int Dim>
 void JointTurns<Dim>::close(Eigen::VectorXd& v) const {
+  double before = 0;
   for (int n = 0; n < most_bow_turns; ++n) {
     const Eigen::VectorXd change = follow_bow(v);
+    const double now = change.norm(), next = before > 0 ? now * now / before : now;
     v += change;
     close_gaps(v);
-    if (change.norm() <= bow_settled * v.norm()) return;
+    if (std::min(now, next) <= bow_settled * v.norm()) return;
+    before = now;
   }
 }
 

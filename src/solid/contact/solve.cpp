@@ -198,7 +198,7 @@ class Solver {
     return std::max(options_.speed_tolerance, share_of_change * change());
   }
 
-  // Until a step moves no point faster than tolerance(share_of_change).
+  // Until a step moves no point faster than tolerance(share_of_change), and what is prescribed is reached.
   Outcome newton(double share_of_change) {
     for (int i = 0; i < options_.newton_limit; ++i) {
       ++report_.newton_iterations;
@@ -206,11 +206,11 @@ class Solver {
       if (aim(goal) == Outcome::failed) return Outcome::failed;
       last_step_ = fastest(goal.velocity - e_.velocity);
       if (i == 0) first_step_ = last_step_;
-      const bool last = last_step_ <= tolerance(share_of_change) && !under_way();
+      const bool small = last_step_ <= tolerance(share_of_change), last = small && !under_way();
       const Velocities<Dim> from = at_.velocities;
       const double step = !last && takes_arc(goal) ? 1 : search(goal);
       friction_.turn(from, velocities(goal.velocity, 1), weights_.creep_speed);
-      if (last) return Outcome::converged;
+      if (last || (small && !under_way())) return Outcome::converged;
       if (step == 0) return fail("contact: no step downhill is free of collisions");
     }
     return fail("contact: Newton's method does not converge");

@@ -101,7 +101,9 @@ bool is_diagonal(const Eigen::Matrix3d& m) {
 // The axes of space, by ascending moments.
 PrincipalInertia sorted_axes(const Vec3& moments) {
   std::array<int, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return moments[a] < moments[b]; });
+  // By hand: std::stable_sort takes memory.
+  for (const std::size_t n : {0, 1, 0})
+    if (moments[order[n + 1]] < moments[order[n]]) std::swap(order[n], order[n + 1]);
   PrincipalInertia result;
   for (int a = 0; a < 3; ++a) {
     result.axes.col(a) = Vec3::Unit(order[std::size_t(a)]);
@@ -131,11 +133,12 @@ Vec3 angular_velocity(const PrincipalInertia& inertia, const Eigen::Matrix3d& r,
 FreeRotation rotate_freely(const PrincipalInertia& inertia, const Eigen::Matrix3d& r, const Vec3& l, double dt) {
   if (dt == 0) return {r, angular_velocity(inertia, r, l)};
   const Splitting split(inertia.inverse_moments());
+  if (split.is_even()) return {exp_rotation(dt * split.middle * l) * r, split.middle * l};
   const double steps = std::clamp(std::ceil(split.angle(l.norm(), std::abs(dt)) / longest_split), 1.0, most_splits);
   const double step = dt / steps;
   const Vec3 first = r * inertia.axes.col(0), last = r * inertia.axes.col(2);
   Turn turn;
-  for (int i = 0; i < int(steps) && !split.is_even(); ++i) {
+  for (int i = 0; i < int(steps); ++i) {
     turn.add_about(first, split.first, l, step / 2);
     turn.add_about(last, split.last, l, step);
     turn.add_about(first, split.first, l, step / 2);
