@@ -14,6 +14,11 @@
 namespace seiche {
 namespace {
 
+// Ratio of the smaller of two values to the larger, 0 if their signs differ.
+double likeness(double a, double b) {
+  return a * b > 0 ? std::min(a / b, b / a) : 0;
+}
+
 // Extrapolates to a site from the sites of earlier layers. Sites must be at least four from the end of the stored ones.
 template <int Dim>
 struct Predictor {
@@ -21,24 +26,32 @@ struct Predictor {
   const FieldValues<double>& f;
   const FieldValues<char>& known;
   int linear_layers;
+  const std::function<bool(Site)>& bends;
 
   bool earlier(Site at, char layer) const { return known[at] > 0 && known[at] < layer; }
 
   // The nearest value along a line, plus the minmod of the two slopes behind it if both are known. The result is linear
-  // in smooth flow, and constant from drops and sheets too thin to have a slope.
-  double along(Site s, Site d, char layer) const {
+  // in smooth flow, and constant from drops and sheets too thin to have a slope. In the first layer of `bent` sites it
+  // is a parabola where the flow is smooth over five sites.
+  double along(Site s, Site d, char layer, bool bent) const {
     if (layer - 2 >= linear_layers || !earlier(s + d, layer) || !earlier(s + 2 * d, layer)) return f[s];
-    return f[s] + minmod(f[s] - f[s + d], f[s + d] - f[s + 2 * d]);
+    const double last = f[s] - f[s + d], before = f[s + d] - f[s + 2 * d], straight = minmod(last, before);
+    if (!bent || layer > 2 || !earlier(s + 3 * d, layer) || !earlier(s + 4 * d, layer)) return f[s] + straight;
+    const double first = f[s + 2 * d] - f[s + 3 * d];
+    const double alike = std::clamp(10 * likeness(last, before) - 3, 0.0, 1.0) *
+                         std::clamp(5 * likeness(last - before, before - first) - 1, 0.0, 1.0);
+    return f[s] + straight + alike * (2 * last - before - straight);
   }
 
   // Mean over the known neighbours.
   bool predict(Site s, char layer, double& value) const {
     double sum = 0;
     int count = 0;
+    const bool bent = bends && bends(s);
     for (int a = 0; a < Dim; ++a)
       for (const Site d : {-layout.stride(a), layout.stride(a)}) {
         if (!earlier(s + d, layer)) continue;
-        sum += along(s + d, d, layer);
+        sum += along(s + d, d, layer, bent);
         ++count;
       }
     if (count > 0) value = sum / count;
@@ -175,7 +188,7 @@ void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim
                  const ExtrapolateOptions& options, FieldValues<double>& f, FieldValues<char>& known) {
   halo.fill_ghosts({f.data()});
   halo.fill_ghosts({known.data()});
-  const Predictor<Dim> predictor{layout, f, known, options.linear_layers};
+  const Predictor<Dim> predictor{layout, f, known, options.linear_layers, options.bends};
   fill_layers(layout, halo, box, options.layers, predictor, f, known);
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 // Extrapolates a field from sites with known values to the others, layer by layer.
+#include <functional>
+
 #include "grid/halo.h"
 
 namespace seiche {
 
 struct ExtrapolateOptions {
   int layers = 4;
-  int linear_layers = 0;  // number of layers that are extrapolated linearly; the others are constant
+  int linear_layers = 0;                 // number of layers that are extrapolated linearly; the others are constant
+  std::function<bool(Site)> bends = {};  // true for sites that get a parabola in the first layer; empty: none
 };
 
 // Extrapolates one component of a face field within `box`. known: 1 where data exist, 0 elsewhere; on return each

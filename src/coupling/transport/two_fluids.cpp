@@ -118,22 +118,80 @@ FaceField<Dim> flow_of_volumes(const Domain<Dim>& domain, const Fluids& fluids, 
   return u;
 }
 
+namespace {
+
+// Viscosities of both fluids side by side and in layers.
+struct Mixture {
+  double liquid, gas;
+  bool in_layers;  // false: the mean by shares alone
+
+  // `layered`: the part of the strain that shears along the surface. Stress is the same in both fluids there, and
+  // strain in the rest.
+  double mean(double share, double layered) const {
+    const double beside = share * liquid + (1 - share) * gas;
+    if (!in_layers || share <= 0 || share >= 1) return beside;
+    const double across = std::min(liquid, gas) > 0 ? 1 / (share / liquid + (1 - share) / gas) : 0;
+    return beside + layered * (across - beside);
+  }
+};
+
+// Squares of the components of the unit vector along g.
+template <int Dim>
+Vec<Dim> squared_normal(const Vec<Dim>& g) {
+  const double norm = g.squaredNorm();
+  return norm > 0 ? Vec<Dim>(g.cwiseAbs2() / norm) : Vec<Dim>(Vec<Dim>::Constant(1.0 / Dim));
+}
+
+// With D the strain of an edge, e_a e_b' + e_b e_a', and the normal n: |D n - (n'D n) n|^2 over |D|^2/2.
+template <int Dim>
+double layered_part_of_edge(const Vec<Dim>& n2, int a, int b) {
+  return n2[a] + n2[b] - 4 * n2[a] * n2[b];
+}
+
+// The same with e_a e_a' - e_b e_b', the strain of a cell; mean over its planes.
+template <int Dim>
+double layered_part_of_cell(const Vec<Dim>& n2) {
+  double sum = 0;
+  for (int p = 0; p < planes<Dim>; ++p) {
+    const auto [a, b] = plane_axes<Dim>(p);
+    sum += n2[a] + n2[b] - (n2[a] - n2[b]) * (n2[a] - n2[b]);
+  }
+  return sum / planes<Dim>;
+}
+
+// Gradient at a cell's centre, times 2h.
+template <int Dim>
+Vec<Dim> differences_at(const Layout<Dim>& layout, const CellField<Dim>& phi, Site c) {
+  Vec<Dim> g;
+  for (int a = 0; a < Dim; ++a) g[a] = phi[c + layout.stride(a)] - phi[c - layout.stride(a)];
+  return g;
+}
+
+}  // namespace
+
 template <int Dim>
 void mix_gas_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, CellField<Dim>& cell,
                        EdgeField<Dim>& edge) {
-  const double gas = fluids.gas.viscosity, h = domain.layout.h();
-  const auto mean = [&](double share, double liquid) { return share * liquid + (1 - share) * gas; };
-  for_each_site(domain.layout, domain.layout.grown(1), [&](Site c) {
+  const Layout<Dim>& layout = domain.layout;
+  const double gas = fluids.gas.viscosity, h = layout.h();
+  const bool in_layers = !fluids.has_surface_tension();
+  for_each_site(layout, layout.grown(1), [&](Site c) {
     for (int p = 0; p < planes<Dim>; ++p) {
       const auto [a, b] = plane_axes<Dim>(p);
-      const Site da = domain.layout.stride(a), db = domain.layout.stride(b);
-      const double at = 0.25 * (phi[c] + phi[c - da] + phi[c - db] + phi[c - da - db]);
+      const std::array<Site, 4> around{c, c - layout.stride(a), c - layout.stride(b),
+                                       c - layout.stride(a) - layout.stride(b)};
+      double at = 0;
+      Vec<Dim> g = Vec<Dim>::Zero();
+      for (const Site s : around) at += 0.25 * phi[s], g += differences_at(layout, phi, s);
       double& mu = edge[p][std::size_t(c)];
-      mu = mean(liquid_share_at(at, h), mu);
+      mu = Mixture{mu, gas, in_layers}.mean(liquid_share_at(at, h),
+                                            layered_part_of_edge<Dim>(squared_normal<Dim>(g), a, b));
     }
   });
-  for_each_site(domain.layout, domain.layout.grown(2),
-                [&](Site c) { cell[c] = mean(liquid_share_at(phi[c], h), cell[c]); });
+  for_each_site(layout, layout.grown(2), [&](Site c) {
+    const Vec<Dim> n2 = squared_normal<Dim>(differences_at(layout, phi, c));
+    cell[c] = Mixture{cell[c], gas, in_layers}.mean(liquid_share_at(phi[c], h), layered_part_of_cell<Dim>(n2));
+  });
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \

@@ -43,8 +43,9 @@ inline double liquid_share_at(double phi, double h) {
   return std::clamp(0.5 - phi / h, 0.0, 1.0);
 }
 
-// Mixes the gas's viscosity into the liquid's in `cell` and `edge` (Pa s): means by liquid share at cell centres and
-// edges. Stress across the surface is then single-valued.
+// Mixes the gas's viscosity into the liquid's in `cell` and `edge` (Pa s), by liquid share at cell centres and edges.
+// Strain that shears along the surface has the harmonic mean, for stress is continuous across layers; the rest, which
+// both fluids take alike, the arithmetic one. Reads phi three cells around the owned ones.
 template <int Dim>
 void mix_gas_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, CellField<Dim>& cell,
                        EdgeField<Dim>& edge);

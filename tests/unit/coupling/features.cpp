@@ -46,6 +46,19 @@ TEST_CASE("nothing is told of a scene in which nothing is switched off") {
   CHECK(may_leapfrog(Setup<2>(floating, Communicator()).features));
 }
 
+TEST_CASE("liquid under gas leapfrogs where gravity alone drives its surface") {
+  Scene scene = basin();
+  scene.gas.present = true;
+  scene.gas.density = 1.2;
+  scene.gravity = Vec3(0, -9.81, 0);
+  CHECK(may_leapfrog(Setup<2>(scene, Communicator()).features));
+  scene.liquid.surface_tension = 0.07;
+  CHECK_FALSE(may_leapfrog(Setup<2>(scene, Communicator()).features));
+  scene.liquid.surface_tension = 0;
+  scene.gravity = Vec3::Zero();
+  CHECK_FALSE(may_leapfrog(Setup<2>(scene, Communicator()).features));
+}
+
 TEST_CASE("what switches the leapfrog off is told, and is what the step looks at") {
   Scene scene = basin();
   scene.solids.push_back(box(SolidKind::fixed, {0.5, 0.1, 0}, {0.52, 0.9, 1}));
