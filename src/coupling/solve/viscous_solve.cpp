@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/scene.h"
+#include "coupling/solids/joint_bow.h"
 #include "coupling/solve/viscous_problem.h"
 #include "coupling/state/setup.h"
 #include "grid/loops.h"
@@ -66,32 +67,68 @@ void add_pressure(const CoupledInput<Dim>& in, const CoupledSolution<Dim>& r, do
   fill_velocity_ghosts(layout, in.liquid.halo, in.setup.domain.sides, u);
 }
 
-// Faces beyond the surface that only follow the stress (viscosity.cpp) take the velocity of those beside them that feel
-// the pressure. With weight and no pressure they would fall, and pull the surface down. Ghosts filled. Collective.
+// True if the pressure acts on the face. Other faces of unknown velocity only follow the stress (face_mass in
+// fluid/viscosity/viscosity.cpp).
+template <int Dim>
+bool feels_pressure(const CoupledInput<Dim>& in, const PressureRows<Dim>& rows, int axis, Site f) {
+  return in.liquid.faces.is_unknown(axis, f) && in.liquid.faces.open.at(axis, f) > 0 &&
+         rows.touch_pressure(f - in.liquid.layout.stride(axis), f);
+}
+
+// One component of u, continued from the faces that feel the pressure. known: 1 there, 0 where nothing reaches.
+template <int Dim>
+struct ContinuedComponent {
+  FieldValues<double> value;
+  FieldValues<char> known;
+};
+
+// Over two layers, of which `straight` linearly. Collective.
+template <int Dim>
+ContinuedComponent<Dim> continue_component(const CoupledInput<Dim>& in, const PressureRows<Dim>& rows, int axis,
+                                           const FaceField<Dim>& u, int straight) {
+  const Layout<Dim>& layout = in.liquid.layout;
+  ContinuedComponent<Dim> r{u[axis], FieldValues<char>(std::size_t(layout.size()))};
+  for_each_site(layout, layout.faces(axis), [&](Site f) { r.known[f] = feels_pressure(in, rows, axis, f); });
+  extrapolate(layout, in.liquid.halo, layout.faces(axis), {2, straight}, r.value, r.known);
+  return r;
+}
+
+// Faces that only follow the stress take the velocity of those beside them that feel the pressure. With weight and no
+// pressure they would fall, and pull the liquid down. Beyond the surface it is constant. In free-slip solids it keeps
+// its slope: liquid that turns with its solid has no stress. Closed faces far from such faces keep the velocity before
+// the step. Ghosts filled. Collective.
 template <int Dim>
 FaceField<Dim> with_followers(const CoupledInput<Dim>& in, const PressureRows<Dim>& rows, FaceField<Dim> u) {
-  constexpr int layers = 2;
-  if (in.liquid.has_gas()) return u;
   const Layout<Dim>& layout = in.liquid.layout;
+  const bool any_solid = !in.setup.solids.bodies.empty();
   for (int a = 0; a < Dim; ++a) {
-    const auto is_open = [&](Site f) { return in.liquid.faces.is_unknown(a, f) && in.liquid.faces.open.at(a, f) > 0; };
-    FieldValues<double> filled = u[a];
-    FieldValues<char> known(std::size_t(layout.size()));
-    for_each_site(layout, layout.faces(a),
-                  [&](Site f) { known[f] = is_open(f) && rows.touch_pressure(f - layout.stride(a), f); });
-    extrapolate(layout, in.liquid.halo, layout.faces(a), {layers, 0}, filled, known);
+    const ContinuedComponent<Dim> flat = continue_component(in, rows, a, u, 0);
+    const ContinuedComponent<Dim> straight = any_solid ? continue_component(in, rows, a, u, 2) : flat;
     for_each_site(layout, layout.faces(a), [&](Site f) {
-      if (known[f] > 1 && is_open(f)) u.at(a, f) = filled[f];
+      const FaceKind kind = in.liquid.faces.kind_at(a, f);
+      if (flat.known[f] == 1 || kind == FaceKind::prescribed) return;
+      const bool closed = kind == FaceKind::closed;
+      if (flat.known[f] > 1)
+        u.at(a, f) = closed ? straight.value[f] : flat.value[f];
+      else if (closed)
+        u.at(a, f) = in.flow.at(a, f);
     });
   }
   fill_velocity_ghosts(layout, in.liquid.halo, in.setup.domain.sides, u);
   return u;
 }
 
-// u*, on those faces with the pressure of the last step. Collective.
+// u*, on those faces the velocity beside them with the pressure of the last step. Ghosts filled. Collective.
 template <int Dim>
 FaceField<Dim> with_pressed_followers(const CoupledInput<Dim>& in, const PressureRows<Dim>& rows) {
-  return shifted(in, with_followers(in, rows, shifted(in, in.u_star, -in.liquid.dt)), in.liquid.dt);
+  FaceField<Dim> u = with_followers(in, rows, shifted(in, in.u_star, -in.liquid.dt));
+  const Layout<Dim>& layout = in.liquid.layout;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(layout, layout.faces(a), [&](Site f) {
+      if (feels_pressure(in, rows, a, f)) u.at(a, f) = in.u_star.at(a, f);
+    });
+  fill_velocity_ghosts(layout, in.liquid.halo, in.setup.domain.sides, u);
+  return u;
 }
 
 template <int Dim>
