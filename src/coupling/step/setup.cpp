@@ -116,7 +116,7 @@ std::string reason_to_shift(const Setup<Dim>& s) {
   if (!s.may_have_fluid()) return "there is no liquid";
   if (keeps_shapes) return "a source or drain without a rate keeps its shape full or empty";
   for (const Body<Dim>& body : s.solids.bodies)
-    if (body.spec().kind.deforms()) return fmt::format("solid '{}' deforms", body.spec().name);
+    if (body.moves()) return fmt::format("solid '{}' moves", body.spec().name);
   if (s.scene->time.cfl > longest_steps) return fmt::format("time.cfl is above {:g}", longest_steps);
   return will_stay_full(s) ? "liquid fills the domain for good" : "";
 }
