@@ -93,7 +93,7 @@ TEST_CASE("all causes of a scene are told in one line") {
   scene.gas.present = true;
   scene.gas.density = 1;
   scene.solids.push_back(box(SolidKind::fixed, {0.5, 0.1, 0}, {0.52, 0.9, 1}));
-  CHECK_THAT(told(scene)[0], Contains("[gas] that flows, solids thinner than a cell"));
+  CHECK_THAT(told(scene)[0], Contains("[gas] that flows, beside solids") && Contains(", solids thinner than a cell"));
 }
 
 TEST_CASE("docs/features.md is what the table says") {
