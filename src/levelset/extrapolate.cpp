@@ -32,11 +32,11 @@ struct Predictor {
 
   // The nearest value along a line, plus the minmod of the two slopes behind it if both are known. The result is linear
   // in smooth flow, and constant from drops and sheets too thin to have a slope. In the first layer of `bent` sites it
-  // is a parabola where the flow is smooth over five sites.
+  // is a parabola where the flow is smooth over four sites, as far as a halo of four reaches.
   double along(Site s, Site d, char layer, bool bent) const {
     if (layer - 2 >= linear_layers || !earlier(s + d, layer) || !earlier(s + 2 * d, layer)) return f[s];
     const double last = f[s] - f[s + d], before = f[s + d] - f[s + 2 * d], straight = minmod(last, before);
-    if (!bent || layer > 2 || !earlier(s + 3 * d, layer) || !earlier(s + 4 * d, layer)) return f[s] + straight;
+    if (!bent || layer > 2 || !earlier(s + 3 * d, layer)) return f[s] + straight;
     const double first = f[s + 2 * d] - f[s + 3 * d];
     const double alike = std::clamp(10 * likeness(last, before) - 3, 0.0, 1.0) *
                          std::clamp(5 * likeness(last - before, before - first) - 1, 0.0, 1.0);
