@@ -46,7 +46,7 @@ struct StepStats {
   double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
   double volume_spilled = 0;       // handed to neighbouring cells since the start, m^3
   double volume_drifting = 0;      // in cells away from the level set's liquid, m^3
-  double volume_since_solve = 0;   // that sides and feeds brought after the last solve; in liquid_volume, m^3
+  double volume_since_solve = 0;   // brought by sides and feeds since the time of volumes; in liquid_volume, m^3
   std::int64_t drops = 0;          // that fly as points
   double volume_drops = 0;         // in them, m^3
   double volume_left_out = 0;      // of drops that were not kept (liquid.spray), since the start, m^3

@@ -10,7 +10,7 @@ namespace {
 
 // Volume that sides and feeds brought since the time of the volumes, m^Dim. Collective.
 template <int Dim>
-double brought_since(const Setup<Dim>& s, const StepGeometry<Dim>& geometry, const State<Dim>& state) {
+double brought_since_volumes(const Setup<Dim>& s, const StepGeometry<Dim>& geometry, const State<Dim>& state) {
   const double span = state.volume_lag;
   if (!s.volume_lags() || span == 0) return 0;
   const double brought = span * net_inflow(s.domain, geometry, state.phi, state.now->u);
@@ -26,7 +26,7 @@ template <int Dim>
 void measure_volumes(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const State<Dim>& state,
                      StepStats& stats) {
   measure_tracked(setup.domain, setup.fluids, state, stats);
-  stats.volume_since_solve = brought_since(setup, geometry, state);
+  stats.volume_since_solve = brought_since_volumes(setup, geometry, state);
   stats.liquid_volume += stats.volume_since_solve;
 }
 

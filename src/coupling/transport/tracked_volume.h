@@ -29,7 +29,7 @@ double share_of_trial(const Domain<Dim>& domain, const Ledger<Dim>& ledger, cons
                       const CellValues& brought, double span, const FaceField<Dim>& initial,
                       const FaceField<Dim>& trial);
 
-// What carries volumes beside the velocity.
+// Span, room and level set of volumes that are carried along a velocity.
 template <int Dim>
 struct VolumeCarriage {
   double span;                      // s
