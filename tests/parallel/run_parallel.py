@@ -72,7 +72,8 @@ BOXES += rigid("upper", 'shape = "box"\nlower = [0.45, 0.092]\nupper = [0.55, 0.
 BOXES += rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.3]\nradius = 0.07', 300.0)
 
 # Two arms on a driven and a sprung hinge, with a stop, and a box on a strut with a motor, in the way of the water.
-LINKS = TWENTY_STEPS + rigid("arm", 'shape = "box"\nlower = [0.2, 0.2]\nupper = [0.26, 0.36]', 700.0)
+LINKS = TWENTY_STEPS.replace("fixed_step = 0.005", "fixed_step = 0.004")
+LINKS += rigid("arm", 'shape = "box"\nlower = [0.2, 0.2]\nupper = [0.26, 0.36]', 700.0)
 LINKS += rigid("hand", 'shape = "box"\nlower = [0.2, 0.06]\nupper = [0.26, 0.21]', 400.0)
 LINKS += rigid("box", 'shape = "box"\nlower = [0.44, 0.05]\nupper = [0.56, 0.14]', 900.0)
 LINKS += """
@@ -266,6 +267,60 @@ BUBBLE_IN_CELLS = DAM_IN_CELLS.replace(
     'shape = "expression"\nphi = "max(0.14-sqrt((x-0.42)^2+(y-0.25)^2), y-0.5)"') + '[gas]\nbubbles = "volume_conserving"\n'
 PARTING_IN_CELLS = (DAM_IN_CELLS.replace("dimension = 2", "dimension = 2\ngravity = [6.0, 9.81]")
                     .replace("[liquid]\n", "[liquid]\nseparates = true\n"))
+
+# A stream that sets off at once below a surface off the faces, and liquid that parts beside a paddle: cells of the
+# surface among full ones, whose planes rounding chose.
+SET_OFF_IN_CELLS = f"""\
+dimension = 2
+[domain]
+lower = [0.0, 0.0]
+upper = [1.4, 0.7]
+cell_size = 0.05
+[domain.boundary]
+x_lower = {{ type = "inflow", velocity = ["y < 0.33 ? 1.0 : 0", "0"] }}
+x_upper = "outflow"
+[time]
+end = 0.2
+frame_rate = 5.0
+[liquid]
+volume = "cells"
+[[liquid.region]]
+shape = "box"
+lower = [0.0, 0.0]
+upper = [1.4, 0.33]
+[solver]
+tolerance = {TOLERANCE}
+"""
+PARTING_BESIDE_PADDLE = f"""\
+dimension = 2
+[domain]
+lower = [0.0, 0.0]
+upper = [1.0, 0.76]
+cell_size = 0.04
+[time]
+end = 0.2
+frame_rate = 5.0
+[liquid]
+volume = "cells"
+separates = true
+[[liquid.region]]
+shape = "box"
+lower = [0.0, 0.0]
+upper = [0.3, 0.5]
+[[liquid.region]]
+shape = "box"
+lower = [0.0, 0.0]
+upper = [1.0, 0.2]
+[[solid]]
+name = "paddle"
+kind = "kinematic"
+shape = "box"
+lower = [-0.2, -0.1]
+upper = [0.06, 0.8]
+motion = {{ translate = ["0.12*sin(12*t)", "0"] }}
+[solver]
+tolerance = {TOLERANCE}
+""" + rigid("box", 'shape = "box"\nlower = [0.5, 0.2]\nupper = [0.7, 0.35]', 300.0)
 
 # Outlines in 2D that beat beside a rigid ball in the flood.
 BEATING_2D = (DAM_IN_CELLS.replace("end = 0.2", "end = 0.1").replace("frame_rate = 5.0", "frame_rate = 10.0")
@@ -659,6 +714,16 @@ def volumes_ranks_agree_3d(bench):
     ranks_agree(bench, DAM_IN_CELLS_3D, (2, 3))
 
 
+def volumes_that_set_off_agree(bench):
+    """A stream whose inflow starts at once, with volumes in cells, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, SET_OFF_IN_CELLS, (2, 3))
+
+
+def parting_volumes_beside_paddle_agree(bench):
+    """Liquid with volumes in cells that leaves walls beside a paddle and a box, on 1 and 3 ranks."""
+    ranks_agree(bench, PARTING_BESIDE_PADDLE, (3,))
+
+
 def poured_volumes_agree(bench):
     """A jet and a source with volumes in cells above an open bottom, on 1, 2 and 3 ranks."""
     ranks_agree(bench, POURED_IN_CELLS, (2, 3))
@@ -856,7 +921,8 @@ TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid
                        mud_ranks_agree_2d, gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d,
                        viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d,
                        volumes_beside_post_agree, volumes_ranks_agree_3d, volumes_under_gas_agree,
-                       volumes_round_bubble_agree, volumes_that_part_agree, poured_volumes_agree, drops_agree_2d,
+                       volumes_round_bubble_agree, volumes_that_part_agree, volumes_that_set_off_agree,
+                       parting_volumes_beside_paddle_agree, poured_volumes_agree, drops_agree_2d,
                        drops_agree_3d, jet_ranks_agree,
                        fed_ranks_agree_2d, fed_ranks_agree_3d, waves_ranks_agree_2d, waves_under_gas_agree,
                        waves_ranks_agree_3d,

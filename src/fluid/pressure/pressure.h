@@ -1,5 +1,6 @@
 #pragma once
 // Variational cut-cell pressure projection with a second-order free surface: rows, components, matrix, update.
+#include <algorithm>
 #include <string>
 
 #include "fluid/boundary/face_geometry.h"
@@ -42,10 +43,21 @@ struct ProjectionInput {
   bool has_gas() const { return gas_density > 0; }
   bool is_liquid(Site cell) const { return phi[cell] < 0; }
   bool is_separated(Site cell) const { return separation && separation->separated[cell]; }
+  // Through open faces that add up to W it has at most the speed h/excess_time: |V - K| counts up to W.
   double outflow_of_excess(Site cell) const {
     const double excess = (*share)[cell] - room.of(cell);
     const bool flows = excess > 0 || is_deep<Dim>(layout, {Divergence::stays, room}, phi, *share, cell);
-    return flows ? excess * layout.h() / excess_time : 0;
+    if (!flows || excess == 0) return 0;
+    const double most = room.is_whole() ? 1 : passable(cell);
+    return std::clamp(excess, -most, most) * layout.h() / excess_time;
+  }
+  // Sum of the open shares of a cell's faces of unknown velocity.
+  double passable(Site cell) const {
+    double sum = 0;
+    for (int a = 0; a < Dim; ++a)
+      for (const Site f : {cell, cell + layout.stride(a)})
+        if (faces.is_unknown(a, f)) sum += faces.open.at(a, f);
+    return sum;
   }
   // Inflow that fills a cell or its gap within the step, less the outflow of its excess, per face area, m/s.
   double missing_flux(Site cell) const {

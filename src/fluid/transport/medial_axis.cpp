@@ -38,18 +38,27 @@ double beyond(double q, double low, double high, const Bend& b, double h) {
   return q + std::clamp((std::abs(k) / h - corner) / corner, 0.0, 1.0) * (k - q);
 }
 
+// The second difference m of smaller magnitude. Where the other one is its opposite but for rounding, as at the centres
+// of symmetric shapes, rounding would choose between m and -m: there m fades to 0.
+double smaller_difference(const Bend& b) {
+  constexpr double steepness = 1e6;
+  const bool first = std::abs(b.d1) < std::abs(b.d2);
+  const double m = first ? b.d1 : b.d2, other = first ? b.d2 : b.d1;
+  return m * other < 0 ? m * std::min(1.0, steepness * (1 + m / other)) : m;
+}
+
 // Interpolates at fraction t between p1 and p2. The cubic through all four points is
 //   c = l + t (t - 1)/6 ((2 - t) d1 + (1 + t) d2),  l = p1 + t (p2 - p1).
 // Across a medial axis it is too low in the middle of threads and too high in that of gaps, by up to h/8 at their
 // surface. The one-sided parabola (ENO, Harten et al. 1987) is
-//   q = l + t (t - 1)/2 m,  m the smaller of d1, d2 in magnitude.
+//   q = l + t (t - 1)/2 m,  m by smaller_difference().
 // The one-sided value is q if the medial axis is outside [p1, p2]; else it follows the lines from both sides to their
 // intersection (subcell resolution, Harten 1989). The result blends from c to it by b.share.
 double interpolate_with_medial_axis(const std::array<double, 4>& p, double t, double h) {
   const Bend b = bend(p[0], p[1], p[2], p[3], h);
   const double line = p[1] + t * (p[2] - p[1]), cubic = line + t * (t - 1) / 6 * ((2 - t) * b.d1 + (1 + t) * b.d2);
   if (b.share == 0) return cubic;
-  const double one_sided = line + t * (t - 1) / 2 * (std::abs(b.d1) < std::abs(b.d2) ? b.d1 : b.d2);
+  const double one_sided = line + t * (t - 1) / 2 * smaller_difference(b);
   const double low = p[1] + t * (p[1] - p[0]), high = p[2] + (1 - t) * (p[2] - p[3]);
   return cubic + b.share * (beyond(one_sided, low, high, b, h) - cubic);
 }

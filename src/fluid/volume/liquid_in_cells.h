@@ -72,14 +72,15 @@ class LiquidInCells {
   // A cell whose plane stands for the surface in all cells that a region reaches, to 0.01 of each: the mixed one
   // nearest to its middle; none if the surface bends.
   std::optional<IVec<Dim>> flat_cell(const SweptRegion<Dim>& region) const {
-    constexpr double most = 0.01, tie = 1e-6;  // of cells equally near, the one nearest to half full
+    // Of cells equally near the one nearest to half full counts, of equally full ones the first: not rounding.
+    constexpr double most = 0.01, tie = 1e-6, rounding = 1e-11;
     const CellRange<Dim> range = region.range();
     std::optional<IVec<Dim>> best;
     double least = 1e300;
     each_cell(range, [&](const IVec<Dim>& i) {
       const Site c = layout_.site(i);
       const double d = (centre_of(i) - region.middle()).squaredNorm() + tie * std::abs(share_[c] - 0.5);
-      if (pieces_.has(c) && d < least) least = d, best = i;
+      if (pieces_.has(c) && d < least - rounding) least = d, best = i;
       return true;
     });
     if (!best) return {};

@@ -1,6 +1,7 @@
 #include "fluid/volume/moved_solids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "fluid/volume/neighbours.h"
@@ -56,11 +57,13 @@ void leave_covered(const Layout<Dim>& layout, const Halo<Dim>& halo, const Ledge
 template <int Dim>
 CellField<Dim, char> cells_near_changes(const Layout<Dim>& layout, const Ledger<Dim>& ledger) {
   constexpr int reach = 2;
+  constexpr double rounding = 1e-9;  // share of a cell: what the solver's tolerance moves a solid at rest by
   CellField<Dim, char> near(layout);
   const Box<Dim> box = cells_around(layout, reach + 1);
   std::vector<Site> sites;
   const auto look = [&](Site c, double) {
-    if (ledger.room.of(c) != ledger.after.of(c) && box.contains(layout.index(c))) sites.push_back(c);
+    if (std::abs(ledger.room.of(c) - ledger.after.of(c)) > rounding && box.contains(layout.index(c)))
+      sites.push_back(c);
   };
   ledger.room.each_stored(look), ledger.after.each_stored(look);
   mark_around(layout, sites, reach, near);

@@ -73,11 +73,13 @@ std::array<Vec<Dim>, 3> slopes(const ShareBlock<Dim>& s, int axis) {
 }
 
 // The normal, of those that columns' slopes give, whose plane meets the shares around best. Columns along axes that the
-// surface is far from crossing tell nothing.
+// surface is far from crossing tell nothing. Zero if the shares have no gradient but for rounding.
 template <int Dim>
 Vec<Dim> normal_of_columns(const ShareBlock<Dim>& s) {
   constexpr double crossed = 0.5, dust = 1e-4, tie = 1e-6;  // of equal misfits the first one counts, not rounding
+  constexpr double rounding = 1e-9;
   const Vec<Dim> gradient = s.gradient(), size = gradient.cwiseAbs();
+  if (size.maxCoeff() < rounding) return Vec<Dim>::Zero();
   const double own = s.share[std::size_t(ShareBlock<Dim>::count / 2)];
   if (std::min(own, 1 - own) < dust && size.maxCoeff() > dust) return -gradient.normalized();
   Vec<Dim> best = Vec<Dim>::Unit(0);
@@ -114,6 +116,15 @@ Vec<Dim> normal_of_level_set(const Layout<Dim>& layout, const CellField<Dim>& ph
   return norm > flat && norm < steep ? Vec<Dim>(g / norm) : Vec<Dim>::Zero();
 }
 
+// Normal by central differences of phi. They tell it in a mixed cell among cells that are all as full.
+template <int Dim>
+Vec<Dim> normal_of_differences(const Layout<Dim>& layout, const CellField<Dim>& phi, Site c) {
+  constexpr double rounding = 1e-9;
+  Vec<Dim> g;
+  for (int a = 0; a < Dim; ++a) g[a] = (phi[c + layout.stride(a)] - phi[c - layout.stride(a)]) / (2 * layout.h());
+  return g.norm() > rounding ? Vec<Dim>(g.normalized()) : Vec<Dim>::Unit(0);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -141,6 +152,7 @@ SurfacePieces<Dim> surface_pieces(const Layout<Dim>& layout, const Box<Dim>& box
   for_each_listed(cells, [&](Site c) {
     Vec<Dim> n = normal_of_level_set(layout, phi, c);
     if (n.isZero(0)) n = normal_of_columns(ShareBlock<Dim>(layout, share, c));
+    if (n.isZero(0)) n = normal_of_differences(layout, phi, c);
     r.planes[std::size_t(r.number[c] - 1)] = {n, offset_of_share<Dim>(n, share[c])};
   });
   return r;

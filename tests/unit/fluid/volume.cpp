@@ -335,11 +335,38 @@ void check_excess() {
   CHECK(s.share[deep] - 1 == Approx(error).epsilon(1e-9));
 }
 
+// A cell that lacks liquid among full ones: rounding of these does not choose its plane, the level set does.
+template <int Dim>
+void check_lone_cell() {
+  Flow<Dim> s(8);
+  const Site lone = s.layout.site(IVec<Dim>::Constant(4));
+  const auto plane = [&](double rounding) {
+    for_each_index_in_order(s.layout, s.layout.padded(), [&](Site c, const IVec<Dim>& i) {
+      s.share[c] = 1;
+      s.phi[c] = -0.1 * s.g.h - 0.05 * s.g.h * (4 - i[1]);
+    });
+    s.share[lone] = 0.8;
+    s.share[lone + s.layout.stride(0)] = 1 - rounding, s.share[lone - s.layout.stride(0)] = 1 + rounding;
+    const CountedShares<Dim> counted(s.layout, Divergence::swells, s.phi, s.share);
+    return surface_pieces<Dim>(s.layout, s.layout.cells(), s.phi, counted)[lone];
+  };
+  for (const double rounding : {1e-15, -1e-15, 0.0}) {
+    const CellPlane<Dim> found = plane(rounding);
+    CHECK((found.normal - Vec<Dim>::Unit(1)).norm() < 1e-12);
+    CHECK(found.offset == Approx(0.8).epsilon(1e-9));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("cells deep in the liquid keep what the error of a solve moves into them") {
   check_excess<2>();
   check_excess<3>();
+}
+
+TEST_CASE("rounding does not choose the plane of a cell among full ones") {
+  check_lone_cell<2>();
+  check_lone_cell<3>();
 }
 
 TEST_CASE("paths of the volumes that leave the halo are counted and cut short") {
