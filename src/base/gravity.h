@@ -14,6 +14,8 @@ class Gravity {
   Vec3 at(double t) const { return value_({0, 0, 0}, t); }
   // Gravity of the step of dt that ends at `end`: its value at the middle. Liquid and bodies use the same one.
   Vec3 of_step(double end, double dt) const;
+  // True unless it is zero for good. A formula counts, whatever its values: no end of time may change the answer.
+  bool may_act() const { return !value_.is_constant() || at(0).norm() > 0; }
   // The largest finite |g| (m/s^2) among 1001 equally spaced samples of [from, to].
   double largest(double from, double to) const;
   // Message that names the component that is not finite at t; empty if all are finite.

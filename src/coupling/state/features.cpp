@@ -52,7 +52,7 @@ bool has_contact_angles(const Scene& scene) {
 // True if gravity alone drives waves on the surface.
 template <int Dim>
 bool has_gravity_waves(const Setup<Dim>& s) {
-  return !s.fluids.has_surface_tension() && s.fluids.gravity.largest(0, s.scene->time.end) > 0;
+  return !s.fluids.has_surface_tension() && s.fluids.gravity.may_act();
 }
 
 template <int Dim>
@@ -116,7 +116,7 @@ const std::vector<Exclusion<Dim>>& exclusions() {
        [](S s) { return s.solids.has_unknowns() && !s.solids.plans_steps() && has_kinematic(s.solids); }},
       {F::leapfrog, "solids that deform", [](S s) { return s.solids.plans_steps(); }},
       {F::leapfrog, "solids thinner than a cell",
-       [](S s) { return any_body<Dim>(s.solids, [](B b) { return b.is_thin(); }); }},
+       [](S s) { return s.may_have_fluid() && any_body<Dim>(s.solids, [](B b) { return b.is_thin(); }); }},
       {F::shared_viscosity, "scheme = \"first_order\"",
        [](S s) { return s.scene->time.scheme == TimeScheme::first_order; }},
       {F::shared_viscosity, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},

@@ -139,7 +139,7 @@ std::string carry_volumes(const Setup<Dim>& s, const VolumeSpan<Dim>& span, cons
   const State<Dim>& known = sets_off ? *before.trial : before;
   const Room<Dim> room = span.open ? Room<Dim>(*span.open, *known.open) : Room<Dim>();
   const double length = span.until - span.from;
-  const PlacedSources<Dim> sources(s, known, known.time - known.volume_lag);
+  const PlacedSources<Dim> sources(s, known, span.from);
   const CellValues brought = brought_by_feeds(s.domain, sources.feeds(), FedLiquid<Dim>(known), span.from, span.until);
   const LedgerRules<Dim> ledger(s.divergence(), room, next.room());
   const std::optional<FaceField<Dim>> through = flow_through_faces(s.domain, room, before.gap_flow, u);
@@ -150,7 +150,7 @@ std::string carry_volumes(const Setup<Dim>& s, const VolumeSpan<Dim>& span, cons
   FaceField<Dim> solved = flow_through_faces(s.domain, room, known.gap_flow, trial).value_or(trial);
   if (!s.fluids.has_gas() && (s.solids.bodies.empty() || any_moves(s.solids))) {
     const FaceField<Dim>& initial = through ? *through : u;
-    const double part = share_of_trial(s.domain, ledger, before.liquid, brought, length, initial, solved);
+    const double part = share_of_trial(s.domain, ledger, next.liquid, brought, length, initial, solved);
     blend(s.domain.layout, u, part, trial), blend(s.domain.layout, initial, part, solved);
   }
   return carry_liquid(s.domain, trial, solved, carriage, next);

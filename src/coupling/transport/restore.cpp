@@ -143,11 +143,11 @@ bool ends_at_surface(const ProjectionInput<Dim>& in, int axis, Site f) {
          in.is_liquid(f) != in.is_liquid(f - in.layout.stride(axis));
 }
 
-// True if velocity goes on by a parabola beside the surface: beside gravity waves under gas, which leapfrog. In whole
-// steps errors of space and time cancel; with tension, drops at rest and bubbles do worse (decision 19).
+// True if velocity goes on by a parabola beside the surface: beside gravity waves under gas. With tension, drops at
+// rest and bubbles do worse (decision 19).
 template <int Dim>
 bool bends_beyond_surface(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids) {
-  const bool has_gravity_waves = fluids.gravity.at(0).norm() > 0 && !fluids.has_surface_tension();
+  const bool has_gravity_waves = fluids.gravity.may_act() && !fluids.has_surface_tension();
   return fluids.has_gas() && has_gravity_waves && solids.bodies.empty() && !domain.sides.any_waves();
 }
 

@@ -59,6 +59,23 @@ TEST_CASE("liquid under gas leapfrogs where gravity alone drives its surface") {
   CHECK_FALSE(may_leapfrog(Setup<2>(scene, Communicator()).features));
 }
 
+TEST_CASE("gravity by a formula counts as gravity, whatever its values until the end") {
+  Scene scene = basin();
+  scene.gas.present = true;
+  scene.gas.density = 1.2;
+  scene.gravity.formula = {"0", "t < 100 ? 0 : -9.81", "0"};
+  CHECK(may_leapfrog(Setup<2>(scene, Communicator()).features));
+}
+
+TEST_CASE("solids thinner than a cell switch nothing off where no liquid may be") {
+  Scene scene = basin();
+  scene.liquid.regions.clear();
+  scene.solids.push_back(box(SolidKind::rigid, {0.5, 0.1, 0}, {0.52, 0.9, 1}));
+  const Setup<2> setup(scene, Communicator());
+  CHECK(may_leapfrog(setup.features));
+  CHECK(setup.notes.empty());
+}
+
 TEST_CASE("what switches the leapfrog off is told, and is what the step looks at") {
   Scene scene = basin();
   scene.solids.push_back(box(SolidKind::fixed, {0.5, 0.1, 0}, {0.52, 0.9, 1}));
