@@ -19,18 +19,17 @@ int parts_of_cell(const ScalarVolume& phi) {
   return std::clamp(int(std::sqrt(most_nodes / cells)), 1, 3);
 }
 
-// Slope of a level set between two differences of it, all over h. Their mean, but where they differ as at a corner:
-// there their harmonic mean, 0 for differences of two signs (Fritsch, Carlson 1980), so that no knob grows beside it.
-double slope_between(double low, double high) {
+// Slope of a level set at an end of a piece, over h, from the differences beside the piece and of the piece itself:
+// their mean, but where they differ as at a corner the piece's own. Corners stay, and no knob grows beside them.
+double slope_at_end(double beside, double own) {
   constexpr double round = 0.5, sharp = 0.8;  // of outlines two cells in radius; of corners
-  const double monotone = low * high > 0 ? 2 * low * high / (low + high) : 0;
-  const double part = std::clamp((std::abs(high - low) - round) / (sharp - round), 0.0, 1.0);
-  return (1 - part) * 0.5 * (low + high) + part * monotone;
+  const double part = std::clamp((std::abs(beside - own) - round) / (sharp - round), 0.0, 1.0);
+  return (1 - part) * 0.5 * (beside + own) + part * own;
 }
 
 // Cubic piece between the middle two of four values over h, at t in [0, 1].
 double cubic_piece(const std::array<double, 4>& f, double t) {
-  const double low = slope_between(f[1] - f[0], f[2] - f[1]), high = slope_between(f[2] - f[1], f[3] - f[2]);
+  const double own = f[2] - f[1], low = slope_at_end(f[1] - f[0], own), high = slope_at_end(f[3] - f[2], own);
   const double t2 = t * t, t3 = t2 * t;
   return (1 - 3 * t2 + 2 * t3) * f[1] + (3 * t2 - 2 * t3) * f[2] + (t - 2 * t2 + t3) * low + (t3 - t2) * high;
 }
@@ -45,16 +44,22 @@ class SmoothLevelSet : public ShapeField<2> {
     const int i = int(std::floor(u)), j = int(std::floor(v));
     const float nearest = value(int(std::lround(u)), int(std::lround(v)));
     if (!(std::abs(nearest) < 2 * phi_.h)) return nearest;  // the band of a distance: no surface within the cell
-    std::array<double, 4> rows{};
-    for (int b = 0; b < 4; ++b) {
-      std::array<double, 4> row{};
-      for (int a = 0; a < 4; ++a) row[std::size_t(a)] = value(i - 1 + a, j - 1 + b) / double(phi_.h);
-      rows[std::size_t(b)] = cubic_piece(row, u - i);
-    }
-    return phi_.h * cubic_piece(rows, v - j);
+    return 0.5 * phi_.h * (piece(i, j, {u - i, v - j}, 0) + piece(i, j, {u - i, v - j}, 1));
   }
 
  private:
+  // Over h, at t from the centre of cell i, j: first along an axis, then along the other. The mean of both orders is
+  // the same for turned scenes.
+  double piece(int i, int j, const std::array<double, 2>& t, int first) const {
+    std::array<double, 4> lines{};
+    for (int b = 0; b < 4; ++b) {
+      std::array<double, 4> line{};
+      for (int a = 0; a < 4; ++a)
+        line[std::size_t(a)] = value(i - 1 + (first == 0 ? a : b), j - 1 + (first == 0 ? b : a)) / double(phi_.h);
+      lines[std::size_t(b)] = cubic_piece(line, t[std::size_t(first)]);
+    }
+    return cubic_piece(lines, t[std::size_t(1 - first)]);
+  }
   float value(int i, int j) const {
     return phi_.at(std::clamp(i, 0, phi_.cells[0] - 1), std::clamp(j, 0, phi_.cells[1] - 1), 0);
   }
