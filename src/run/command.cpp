@@ -106,6 +106,14 @@ VolumeKeeping volume_keeping(const CheckpointData& data) {
   return std::ranges::any_of(data.fields, is_liquid) ? VolumeKeeping::in_cells : VolumeKeeping::by_shift;
 }
 
+// Warns where a run that carried volumes by cells goes on with a shift.
+void warn_of_lost_volumes(VolumeKeeping held, const Scene& scene, RunLog& log) {
+  if (held == VolumeKeeping::in_cells && scene.liquid.volume == VolumeKeeping::by_shift)
+    log.warn(
+        "liquid.volume = \"shift\": the volumes that cells carried are given up; drops in flight vanish, and the shift "
+        "of the surface brings their volume back");
+}
+
 }  // namespace
 
 std::string note_of_end(const Scene& scene) {
@@ -150,6 +158,8 @@ ExitCode resume_command(const ResumeOptions& options, const Surroundings& around
     return ExitCode::done;
   }
   check_machine(run.scene, ranks);
+  const VolumeKeeping held = volume_keeping(run.checkpoint.data);
+  warn_of_lost_volumes(held, run.scene, log);
   log.note(fmt::format(
       "resuming at step {}, t = {:g} s{}", run.state.step, run.state.time,
       run.checkpoint.ranks == ranks.size() ? "" : fmt::format(" (written by {} ranks)", run.checkpoint.ranks)));
@@ -157,8 +167,7 @@ ExitCode resume_command(const ResumeOptions& options, const Surroundings& around
     simulation.load(load_checkpoint(run.checkpoint, simulation.checkpoint_boxes(run.checkpoint.data), ranks));
     return run.state;
   };
-  return run_session({run.scene, around, options.session, log, RunPaths{folder}, volume_keeping(run.checkpoint.data)},
-                     restore);
+  return run_session({run.scene, around, options.session, log, RunPaths{folder}, held}, restore);
 }
 
 }  // namespace seiche

@@ -160,8 +160,8 @@ ExitCode run_session(const Session& session, const Restore& restore) {
     const RunState start = restore ? restore(*simulation) : RunState{};
     if (const std::string text = describe_rheology(session.scene.liquid.rheology); !text.empty())
       session.log.note(text);
-    if (!restore)
-      for (const std::string& text : simulation->describe_start()) session.log.note(text);
+    for (const std::string& text : restore ? simulation->start_account().others : simulation->describe_start())
+      session.log.note(text);
     for (const std::string& text : simulation->take_warnings()) session.log.warn(text);
     return run_loop_to_end(session, threads, *simulation, start, watchdog, signals);
   } catch (const std::bad_alloc&) {

@@ -205,7 +205,7 @@ std::string fault_of_pinned_flow(const Domain<Dim>& domain, const Fluids& fluids
                                                     : fastest_component(domain, state);
   const double crossed = speed * dt / h;
   if (crossed <= most * (1 + relative_rounding)) return {};
-  return fmt::format("{} the flow {:.3g} cells of {:g} m; at most {:g} are possible at cfl = {:g}; lower fixed_step{}",
+  return fmt::format("{} the flow {:.6g} cells of {:g} m; at most {:g} are possible at cfl = {:g}; lower fixed_step{}",
                      pinned_step(time, state.time, dt), crossed, h, most, cfl, cfl < 8 ? " or raise cfl" : "");
 }
 
@@ -216,7 +216,7 @@ std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>&
   const double h = domain.layout.h(), crossed = solids.geometry.largest_displacement(placed, dt) / h;
   if (crossed <= 1 + relative_rounding) return {};
   return fmt::format(
-      "{} a solid {:.3g} cells of {:g} m; at most 1 is possible; lower fixed_step or slow the solid down",
+      "{} a solid {:.6g} cells of {:g} m; at most 1 is possible; lower fixed_step or slow the solid down",
       pinned_step(time, t, dt), crossed, h);
 }
 
