@@ -72,7 +72,7 @@ Key<LiquidSpec> volume_key() {
            "how liquid is kept. \"cells\": the share of each cell is carried, so that liquid stays where it is, to "
            "rounding; for scenes whose solids are thicker than a cell. \"shift\": one shift of the whole surface keeps "
            "the sum. \"auto\": \"shift\" beside solids thinner than a cell, under gas that flows with surface tension, "
-           "in prescribed flows with sources or inflow sides, and, if no gas flows, beside solids that move or deform, "
+           "in prescribed flows with sources or inflow sides, and, if no gas flows, beside elastic solids, "
            "with sources or drains without a rate, where liquid fills the domain for good, and with time.cfl above 4; "
            "else \"cells\""},
       &LiquidSpec::volume,

@@ -61,15 +61,20 @@ std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>&
   std::vector<Body<Dim>> bodies;
   const double h = scene.domain.cell_size;
   const Vec<Dim> lower = truncate<Dim>(scene.domain.lower), upper = truncate<Dim>(scene.domain.upper);
-  std::string thin;
-  for (const SolidSpec& spec : scene.solids) {
+  for (const SolidSpec& spec : scene.solids)
     bodies.emplace_back(heavy_enough(spec, scene.liquid, notes), ShapeOptions{h, &notes}, lower, upper);
-    if (bodies.back().is_thin()) append_name(spec.name, thin);
-  }
-  if (!thin.empty())
-    notes.push_back(
-        fmt::format("thinner than a cell of {:g} m: {}; the liquid sees them as steps of whole cells", h, thin));
   return bodies;
+}
+
+// Tells that the liquid sees thin solids as steps.
+template <int Dim>
+void note_thin(Setup<Dim>& s) {
+  std::string thin;
+  for (const Body<Dim>& body : s.solids.bodies)
+    if (body.is_thin()) append_name(body.spec().name, thin);
+  if (thin.empty() || !s.may_have_fluid()) return;
+  s.notes.push_back(fmt::format("thinner than a cell of {:g} m: {}; the liquid sees them as steps of whole cells",
+                                s.domain.layout.h(), thin));
 }
 
 // Extends a box of liquid that ends at a side of the domain beyond it, since the wall is no free surface.
@@ -97,7 +102,7 @@ std::vector<std::unique_ptr<ShapeField<Dim>>> regions_of_liquid(const Setup<Dim>
 // True if liquid fills the domain and nothing lets air in. Collective.
 template <int Dim>
 bool will_stay_full(const Setup<Dim>& s) {
-  const bool sinks = s.fluids.gravity.largest(0, s.scene->time.end) > 0;
+  const bool sinks = s.fluids.gravity.may_act();
   if (s.fluids.gas.present || s.fluids.liquid.separates || !s.feeds.empty()) return false;
   return !(sinks && s.domain.sides.any_passes()) && fill_domain(s.domain, regions_of_liquid(s));
 }
@@ -116,7 +121,7 @@ std::string reason_to_shift(const Setup<Dim>& s) {
   if (!s.may_have_fluid()) return "there is no liquid";
   if (keeps_shapes) return "a source or drain without a rate keeps its shape full or empty";
   for (const Body<Dim>& body : s.solids.bodies)
-    if (body.moves()) return fmt::format("solid '{}' moves", body.spec().name);
+    if (body.kind().has_elements) return fmt::format("solid '{}' is elastic", body.spec().name);
   if (s.scene->time.cfl > longest_steps) return fmt::format("time.cfl is above {:g}", longest_steps);
   return will_stay_full(s) ? "liquid fills the domain for good" : "";
 }
@@ -244,6 +249,7 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
       sponges(make_sponges(from.liquid, from.domain)),
       followed(find_followed_points(from.probes, solids)) {
   make_sources(from, *this);
+  note_thin(*this);
   fluids.rheology.yield_stress *= perturbation.yield_stress;
   features = Features(*this);
   if (fluids.liquid.volume == VolumeKeeping::automatic) shift_because = reason_to_shift(*this);
