@@ -73,7 +73,8 @@ Key<LiquidSpec> volume_key() {
            "rounding; for scenes whose solids are thicker than a cell. \"shift\": one shift of the whole surface keeps "
            "the sum. \"auto\": \"shift\" beside solids thinner than a cell, under gas that flows with surface tension, "
            "in prescribed flows with sources or inflow sides, and, if no gas flows, beside elastic solids, "
-           "with sources or drains without a rate, where liquid fills the domain for good, and with time.cfl above 4; "
+           "with enclosed air (gas.bubbles) beside solids that move, with sources or drains without a rate, where "
+           "liquid fills the domain for good, and with time.cfl above 4; "
            "else \"cells\""},
       &LiquidSpec::volume,
       {{"auto", VolumeKeeping::automatic}, {"cells", VolumeKeeping::in_cells}, {"shift", VolumeKeeping::by_shift}});

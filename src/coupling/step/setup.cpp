@@ -120,8 +120,11 @@ std::string reason_to_shift(const Setup<Dim>& s) {
   if (s.fluids.has_gas()) return s.fluids.has_surface_tension() ? "the surface to the gas has tension" : "";
   if (!s.may_have_fluid()) return "there is no liquid";
   if (keeps_shapes) return "a source or drain without a rate keeps its shape full or empty";
-  for (const Body<Dim>& body : s.solids.bodies)
+  for (const Body<Dim>& body : s.solids.bodies) {
     if (body.kind().has_elements) return fmt::format("solid '{}' is elastic", body.spec().name);
+    if (body.moves() && s.fluids.keeps_air())
+      return fmt::format("solid '{}' moves, and enclosed air keeps its volume", body.spec().name);
+  }
   if (s.scene->time.cfl > longest_steps) return fmt::format("time.cfl is above {:g}", longest_steps);
   return will_stay_full(s) ? "liquid fills the domain for good" : "";
 }
