@@ -86,7 +86,9 @@ TEST_CASE("a light box that is thrown onto the floor comes up again") {
 TEST_CASE("a heavy box sinks to the floor and comes to lie on it", "[long]") {
   for (int dim : {2, 3}) {
     const double volume = thickness * std::pow(width, dim - 1);
-    const auto sim = make_simulation(box_near_floor(dim, 2000, 6.0 * cells_of(dim) / 32), Communicator());
+    Scene scene = box_near_floor(dim, 2000, 6.0 * cells_of(dim) / 32);
+    scene.solids[0].friction = 0.3;  // without, waves that are no longer mirrored push it along the floor, 0.01 m/s
+    const auto sim = make_simulation(scene, Communicator());
     test::SettledMean force{4, 8};
     double fastest = 0;
     while (sim->time() < 8) {
