@@ -49,12 +49,6 @@ bool has_contact_angles(const Scene& scene) {
          std::any_of(scene.solids.begin(), scene.solids.end(), [](const SolidSpec& s) { return s.contact_angle; });
 }
 
-// True if gravity alone drives waves on the surface.
-template <int Dim>
-bool has_gravity_waves(const Setup<Dim>& s) {
-  return !s.fluids.has_surface_tension() && s.fluids.gravity.may_act();
-}
-
 template <int Dim>
 const std::vector<FeatureText<Dim>>& feature_texts() {
   using S = const Setup<Dim>&;
@@ -110,7 +104,7 @@ const std::vector<Exclusion<Dim>>& exclusions() {
       {F::leapfrog, "[gas] that flows, beside solids or sides with waves",
        [](S s) { return s.fluids.has_gas() && (!s.solids.bodies.empty() || s.domain.sides.any_waves()); }},
       {F::leapfrog, "[gas] that flows, without gravity or with surface_tension",
-       [](S s) { return s.fluids.has_gas() && !has_gravity_waves(s); }},
+       [](S s) { return s.fluids.has_gas() && !s.fluids.has_gravity_waves(); }},
       {F::leapfrog, "enclosed air that keeps its volume", [](S s) { return s.fluids.keeps_air(); }},
       {F::leapfrog, "rigid beside kinematic solids",
        [](S s) { return s.solids.has_unknowns() && !s.solids.plans_steps() && has_kinematic(s.solids); }},

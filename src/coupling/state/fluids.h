@@ -27,6 +27,7 @@ struct Fluids {
   bool keeps_air() const { return gas.present && gas.bubbles == Bubbles::volume_conserving; }
   bool has_prescribed_flow() const { return liquid.prescribed_velocity.has_value(); }
   bool has_surface_tension() const { return liquid.surface_tension > 0; }
+  bool has_gravity_waves() const { return gravity.may_act() && !has_surface_tension(); }  // gravity alone drives them
 
  private:
   std::optional<double> constant_viscosity_;

@@ -147,8 +147,7 @@ bool ends_at_surface(const ProjectionInput<Dim>& in, int axis, Site f) {
 // rest and bubbles do worse (decision 19).
 template <int Dim>
 bool bends_beyond_surface(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids) {
-  const bool has_gravity_waves = fluids.gravity.may_act() && !fluids.has_surface_tension();
-  return fluids.has_gas() && has_gravity_waves && solids.bodies.empty() && !domain.sides.any_waves();
+  return fluids.has_gas() && fluids.has_gravity_waves() && solids.bodies.empty() && !domain.sides.any_waves();
 }
 
 }  // namespace

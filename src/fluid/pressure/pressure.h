@@ -54,9 +54,9 @@ struct ProjectionInput {
   // Sum of the open shares of a cell's faces of unknown velocity.
   double passable(Site cell) const {
     double sum = 0;
-    for (int a = 0; a < Dim; ++a)
-      for (const Site f : {cell, cell + layout.stride(a)})
-        if (faces.is_unknown(a, f)) sum += faces.open.at(a, f);
+    for_each_face_of(layout, cell, [&](int a, Site f, int, Site) {
+      if (faces.is_unknown(a, f)) sum += faces.open.at(a, f);
+    });
     return sum;
   }
   // Inflow that fills a cell or its gap within the step, less the outflow of its excess, per face area, m/s.

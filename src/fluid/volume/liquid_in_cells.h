@@ -72,7 +72,7 @@ class LiquidInCells {
   // A cell whose plane stands for the surface in all cells that a region reaches, to 0.01 of each: the mixed one
   // nearest to its middle; none if the surface bends.
   std::optional<IVec<Dim>> flat_cell(const SweptRegion<Dim>& region) const {
-    // Of cells equally near the one nearest to half full counts, of equally full ones the first: not rounding.
+    // Ties, which rounding must not break: the nearest to half full counts, then the first.
     constexpr double most = 0.01, tie = 1e-6, rounding = 1e-11;
     const CellRange<Dim> range = region.range();
     std::optional<IVec<Dim>> best;
