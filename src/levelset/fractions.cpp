@@ -121,23 +121,26 @@ Site corner_site(const Layout<Dim>& layout, Site cell, int corner) {
   return cell;
 }
 
+// Place of a cell in ValuesAround: beside corner `corner` of the one in the middle, on the sides that `side` tells.
+template <int Dim>
+int place_around(int corner, int side) {
+  int place = 0;
+  for (int a = Dim - 1; a >= 0; --a) place = 3 * place + (corner >> a & 1) - (side >> a & 1) + 1;
+  return place;
+}
+
 // phi (f) at the corners of a cell and at its centre; g = -1: no solids.
 template <int Dim>
-Cube<Dim> corners_of(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell) {
+Cube<Dim> corners_of(const ValuesAround<Dim>& phi) {
   constexpr int corners = 1 << Dim;
   Cube<Dim> c;
   for (int k = 0; k < corners; ++k) {
-    const Site node = corner_site(layout, cell, k);
     double sum = 0;
-    for (int m = 0; m < corners; ++m) {
-      Site around = node;
-      for (int a = 0; a < Dim; ++a) around -= ((m >> a) & 1) * layout.stride(a);
-      sum += phi[around];
-    }
+    for (int m = 0; m < corners; ++m) sum += phi[std::size_t(place_around<Dim>(k, m))];
     c.f[k] = sum / corners;
     c.g[k] = -1;
   }
-  c.f_center = phi[cell];
+  c.f_center = phi[phi.size() / 2];
   return c;
 }
 
@@ -149,8 +152,8 @@ void set_solids(const Layout<Dim>& layout, const NodeField<Dim>& psi, Site cell,
 
 // phi (f) and -psi (g) at the corners of a cell, and phi at its centre.
 template <int Dim>
-Cube<Dim> corners_of(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
-  Cube<Dim> c = corners_of(layout, phi, cell);
+Cube<Dim> corners_of(const Layout<Dim>& layout, const ValuesAround<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
+  Cube<Dim> c = corners_of<Dim>(phi);
   set_solids(layout, psi, cell, c);
   return c;
 }
@@ -172,12 +175,20 @@ double far_above(const Layout<Dim>& layout) {
 
 // The share of a cell that no surface comes near.
 template <int Dim>
-std::optional<double> plain_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi,
-                                  Site cell) {
+std::optional<double> plain_share(const Layout<Dim>& layout, double phi, const NodeField<Dim>& psi, Site cell) {
   const double far = far_above(layout);
-  if (phi[cell] > far) return 0;
-  if (phi[cell] < -far && psi[cell] > far) return 1;
+  if (phi > far) return 0;
+  if (phi < -far && psi[cell] > far) return 1;
   return {};
+}
+
+template <int Dim>
+VolumeAndArea share_and_area_of(const Layout<Dim>& layout, Cube<Dim> c) {
+  constexpr double probe = 1e-3;  // cells
+  const double share = share_of(c);
+  for (double& f : c.f) f -= probe * layout.h();
+  c.f_center -= probe * layout.h();
+  return {share, (share_of(c) - share) / probe};
 }
 
 }  // namespace
@@ -229,8 +240,26 @@ void open_fractions(const Layout<Dim>& layout, const NodeField<Dim>& psi, FaceFi
 }
 
 template <int Dim>
+ValuesAround<Dim> values_around(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell) {
+  ValuesAround<Dim> values;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    Site at = cell;
+    for (int a = 0, rest = int(n); a < Dim; ++a, rest /= 3) at += (rest % 3 - 1) * layout.stride(a);
+    values[n] = phi[at];
+  }
+  return values;
+}
+
+template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
-  if (const std::optional<double> plain = plain_share(layout, phi, psi, cell)) return *plain;
+  if (const std::optional<double> plain = plain_share(layout, phi[cell], psi, cell)) return *plain;
+  Cube<Dim> c = corners_of(layout, values_around(layout, phi, cell), psi, cell);
+  return share_of(c);
+}
+
+template <int Dim>
+double liquid_share(const Layout<Dim>& layout, const ValuesAround<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
+  if (const std::optional<double> plain = plain_share(layout, phi[phi.size() / 2], psi, cell)) return *plain;
   Cube<Dim> c = corners_of(layout, phi, psi, cell);
   return share_of(c);
 }
@@ -238,7 +267,7 @@ double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const 
 template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell) {
   if (std::abs(phi[cell]) > far_above(layout)) return phi[cell] < 0;
-  Cube<Dim> c = corners_of(layout, phi, cell);
+  Cube<Dim> c = corners_of<Dim>(values_around(layout, phi, cell));
   return share_of(c);
 }
 
@@ -263,13 +292,15 @@ double local_liquid_volume(const Layout<Dim>& layout, const CellField<Dim>& phi,
 template <int Dim>
 VolumeAndArea share_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi,
                              Site cell) {
-  constexpr double probe = 1e-3;  // cells
-  if (const std::optional<double> plain = plain_share(layout, phi, psi, cell)) return {*plain, 0};
-  Cube<Dim> c = corners_of(layout, phi, psi, cell);
-  const double share = share_of(c);
-  for (double& f : c.f) f -= probe * layout.h();
-  c.f_center -= probe * layout.h();
-  return {share, (share_of(c) - share) / probe};
+  if (const std::optional<double> plain = plain_share(layout, phi[cell], psi, cell)) return {*plain, 0};
+  return share_and_area_of(layout, corners_of(layout, values_around(layout, phi, cell), psi, cell));
+}
+
+template <int Dim>
+VolumeAndArea share_and_area(const Layout<Dim>& layout, const ValuesAround<Dim>& phi, const NodeField<Dim>& psi,
+                             Site cell) {
+  if (const std::optional<double> plain = plain_share(layout, phi[phi.size() / 2], psi, cell)) return {*plain, 0};
+  return share_and_area_of(layout, corners_of(layout, phi, psi, cell));
 }
 
 template <int Dim>
@@ -293,13 +324,19 @@ template void open_fractions<3>(const Layout<3>&, const NodeField<3>&, FaceField
 template double liquid_share<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&, Site);
 template double liquid_share<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&, Site);
 template double liquid_share<2>(const Layout<2>&, const CellField<2>&, Site);
+template double liquid_share<2>(const Layout<2>&, const ValuesAround<2>&, const NodeField<2>&, Site);
+template ValuesAround<2> values_around<2>(const Layout<2>&, const CellField<2>&, Site);
 template double liquid_share<3>(const Layout<3>&, const CellField<3>&, Site);
+template double liquid_share<3>(const Layout<3>&, const ValuesAround<3>&, const NodeField<3>&, Site);
+template ValuesAround<3> values_around<3>(const Layout<3>&, const CellField<3>&, Site);
 template double open_share<2>(const Layout<2>&, const NodeField<2>&, Site);
 template double open_share<3>(const Layout<3>&, const NodeField<3>&, Site);
 template double local_liquid_volume<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&);
 template double local_liquid_volume<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&);
 template VolumeAndArea share_and_area<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&, Site);
+template VolumeAndArea share_and_area<2>(const Layout<2>&, const ValuesAround<2>&, const NodeField<2>&, Site);
 template VolumeAndArea share_and_area<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&, Site);
+template VolumeAndArea share_and_area<3>(const Layout<3>&, const ValuesAround<3>&, const NodeField<3>&, Site);
 template VolumeAndArea local_volume_and_area<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&);
 template VolumeAndArea local_volume_and_area<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&);
 

@@ -29,9 +29,17 @@ void open_fractions(const Layout<Dim>& layout, const NodeField<Dim>& psi, FaceFi
 template <int Dim>
 double open_part_of_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site face);
 
+// Values of a level set in a cell and in those around it: in that at offset o, each -1, 0 or 1, at sum 3^a (o_a + 1).
+template <int Dim>
+using ValuesAround = std::array<double, Dim == 2 ? 9 : 27>;
+template <int Dim>
+ValuesAround<Dim> values_around(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell);
+
 // Fraction of a cell with phi < 0 (phi at cell centres, valid one cell around) and psi > 0 (psi at nodes).
 template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell);
+template <int Dim>
+double liquid_share(const Layout<Dim>& layout, const ValuesAround<Dim>& phi, const NodeField<Dim>& psi, Site cell);
 // The same without solids.
 template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell);
@@ -56,6 +64,9 @@ struct VolumeAndArea {
 // Share of liquid of one cell, and what it gains a cell by which phi falls.
 template <int Dim>
 VolumeAndArea share_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+                             Site cell);
+template <int Dim>
+VolumeAndArea share_and_area(const Layout<Dim>& layout, const ValuesAround<Dim>& phi, const NodeField<Dim>& psi,
                              Site cell);
 template <int Dim>
 VolumeAndArea local_volume_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi);

@@ -316,13 +316,13 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.exterior = s.exterior;
   state.exterior->start(s.domain, s.fluids, s.solids, g, state.phi, u, fault);
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene->domain, g, fault);
-  if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
-  if (s.volume_lags()) state.liquid_phi = state.phi;
-  if (s.volume_meets_void()) state.liquid_beyond = CellField<Dim>(s.domain.layout);
   state.open = s.open_parts;
   if (s.room_changes())
     state.open =
         std::make_shared<OpenParts<Dim>>(measure_open_parts(s.domain.layout, s.domain.halo, g.psi, g.faces.open));
+  if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
+  if (s.volume_lags()) state.liquid_phi = state.phi;
+  if (s.volume_meets_void()) state.liquid_beyond = CellField<Dim>(s.domain.layout);
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
   state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u);

@@ -8,19 +8,20 @@
 #include "fluid/boundary/domain.h"
 #include "fluid/boundary/inflow.h"
 #include "fluid/volume/level_set_coupling.h"
+#include "fluid/volume/own_side.h"
 #include "fluid/volume/spill.h"
 #include "fluid/volume/surface_difference.h"
 #include "fluid/volume/volume_transport.h"
 #include "grid/loops.h"
-#include "levelset/fractions.h"
 
 namespace seiche {
 
 template <int Dim>
 void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state) {
   state.liquid = CellField<Dim>(domain.layout);
+  const Room<Dim> room = state.room();
   for_each_site(domain.layout, domain.layout.cells(),
-                [&](Site c) { state.liquid[c] = liquid_share(domain.layout, state.phi, psi, c); });
+                [&](Site c) { state.liquid[c] = share_on_own_side(domain.layout, room, state.phi, psi, c).volume; });
   fill_share_ghosts(domain.layout, domain.halo, state.liquid);
   state.expected_volume = tracked_volume(domain, state);
 }
