@@ -8,8 +8,8 @@
 #include "coupling/state/solids.h"
 #include "coupling/transport/transport.h"
 #include "fluid/boundary/domain.h"
+#include "fluid/volume/own_side.h"
 #include "grid/loops.h"
-#include "levelset/fractions.h"
 
 namespace seiche {
 namespace {
@@ -33,11 +33,11 @@ struct FluidSums {
 // g.x with gravity at that time; the fluid is where phi < 0.
 template <int Dim>
 FluidSums sum_fluid(const Domain<Dim>& domain, const TimeLevel<Dim>& level, const CellField<Dim>& phi,
-                    const NodeField<Dim>& psi, double density, const Vec<Dim>& g) {
+                    const NodeField<Dim>& psi, const Room<Dim>& room, double density, const Vec<Dim>& g) {
   FluidSums r;
   for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     if (phi[c] > 2 * domain.layout.h()) return;
-    const double volume = domain.layout.geometry().cell_volume() * liquid_share(domain.layout, phi, psi, c);
+    const double volume = domain.layout.geometry().cell_volume() * liquid_share(domain.layout, room, phi, psi, c);
     const double mass = density * volume;
     double speed2 = 0;
     for (int a = 0; a < Dim; ++a) {
@@ -56,11 +56,12 @@ FluidSums sum_fluid(const Domain<Dim>& domain, const TimeLevel<Dim>& level, cons
 // The same where phi >= 0; zero without such a level.
 template <int Dim>
 FluidSums sum_gas(const Domain<Dim>& domain, const std::shared_ptr<const TimeLevel<Dim>>& level,
-                  const CellField<Dim>& phi, const NodeField<Dim>& psi, double density, const Vec<Dim>& g) {
+                  const CellField<Dim>& phi, const NodeField<Dim>& psi, const Room<Dim>& room, double density,
+                  const Vec<Dim>& g) {
   if (!level) return {};
   CellField<Dim> negated(domain.layout);
   for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { negated[c] = -phi[c]; });
-  return sum_fluid(domain, *level, negated, psi, density, g);
+  return sum_fluid(domain, *level, negated, psi, room, density, g);
 }
 
 }  // namespace
@@ -69,8 +70,8 @@ template <int Dim>
 void measure_fluids(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
                     StepStats& stats) {
   const Vec<Dim> g = truncate<Dim>(fluids.gravity.at(state.time));
-  FluidSums liquid = sum_fluid(domain, *state.now, state.phi, psi, fluids.density(), g),
-            gas = sum_gas(domain, state.exterior->flow.now, state.phi, psi, fluids.gas_density(), g);
+  FluidSums liquid = sum_fluid(domain, *state.now, state.phi, psi, state.room(), fluids.density(), g),
+            gas = sum_gas(domain, state.exterior->flow.now, state.phi, psi, state.room(), fluids.gas_density(), g);
   domain.ranks.global_sum(liquid.sums);
   domain.ranks.global_sum(gas.sums);
   stats.liquid_volume = liquid.sums[0];
@@ -89,8 +90,9 @@ double kinetic_energy_of_fluids_before(const Domain<Dim>& domain, const Fluids& 
                                        const NodeField<Dim>& psi) {
   if (!state.before) return 0;
   const Vec<Dim> g = Vec<Dim>::Zero();
-  const FluidSums liquid = sum_fluid(domain, *state.before, state.phi, psi, fluids.density(), g),
-                  gas = sum_gas(domain, state.exterior->flow.before, state.phi, psi, fluids.gas_density(), g);
+  const FluidSums liquid = sum_fluid(domain, *state.before, state.phi, psi, state.room(), fluids.density(), g),
+                  gas = sum_gas(domain, state.exterior->flow.before, state.phi, psi, state.room(), fluids.gas_density(),
+                                g);
   return domain.ranks.global_sum(liquid.sums[1] + gas.sums[1]);
 }
 

@@ -21,7 +21,7 @@ void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Di
   state.liquid = CellField<Dim>(domain.layout);
   const Room<Dim> room = state.room();
   for_each_site(domain.layout, domain.layout.cells(),
-                [&](Site c) { state.liquid[c] = share_on_own_side(domain.layout, room, state.phi, psi, c).volume; });
+                [&](Site c) { state.liquid[c] = liquid_share(domain.layout, room, state.phi, psi, c); });
   fill_share_ghosts(domain.layout, domain.halo, state.liquid);
   state.expected_volume = tracked_volume(domain, state);
 }

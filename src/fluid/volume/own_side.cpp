@@ -56,6 +56,15 @@ Vec<Dim> slope_among(const Layout<Dim>& layout, const AroundMask<Dim>& joined, c
   return slope;
 }
 
+// True if phi around a cell need not be continued: no surface or no solid is near, or the cell has no room.
+template <int Dim>
+bool has_one_side(const Layout<Dim>& layout, const Room<Dim>& room, const CellField<Dim>& phi,
+                  const NodeField<Dim>& psi, Site cell) {
+  const double far = 2 * layout.h();  // as for liquid_share()
+  if (room.is_whole() || phi[cell] > far || (phi[cell] < -far && psi[cell] > far)) return true;
+  return room.of(cell) == 0;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -72,16 +81,24 @@ ValuesAround<Dim> values_on_own_side(const Layout<Dim>& layout, const Room<Dim>&
 }
 
 template <int Dim>
-VolumeAndArea share_on_own_side(const Layout<Dim>& layout, const Room<Dim>& room, const CellField<Dim>& phi,
-                                const NodeField<Dim>& psi, Site cell) {
-  if (room.is_whole() || room.of(cell) == 0) return share_and_area(layout, phi, psi, cell);
+double liquid_share(const Layout<Dim>& layout, const Room<Dim>& room, const CellField<Dim>& phi,
+                    const NodeField<Dim>& psi, Site cell) {
+  if (has_one_side(layout, room, phi, psi, cell)) return liquid_share(layout, phi, psi, cell);
+  return liquid_share(layout, values_on_own_side(layout, room, phi, cell), psi, cell);
+}
+
+template <int Dim>
+VolumeAndArea share_and_area(const Layout<Dim>& layout, const Room<Dim>& room, const CellField<Dim>& phi,
+                             const NodeField<Dim>& psi, Site cell) {
+  if (has_one_side(layout, room, phi, psi, cell)) return share_and_area(layout, phi, psi, cell);
   return share_and_area(layout, values_on_own_side(layout, room, phi, cell), psi, cell);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                  \
-  template ValuesAround<D> values_on_own_side<D>(const Layout<D>&, const Room<D>&, const CellField<D>&, Site); \
-  template VolumeAndArea share_on_own_side<D>(const Layout<D>&, const Room<D>&, const CellField<D>&,           \
-                                              const NodeField<D>&, Site);
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template ValuesAround<D> values_on_own_side<D>(const Layout<D>&, const Room<D>&, const CellField<D>&, Site);         \
+  template double liquid_share<D>(const Layout<D>&, const Room<D>&, const CellField<D>&, const NodeField<D>&, Site);   \
+  template VolumeAndArea share_and_area<D>(const Layout<D>&, const Room<D>&, const CellField<D>&, const NodeField<D>&, \
+                                           Site);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

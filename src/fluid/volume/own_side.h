@@ -12,9 +12,12 @@ template <int Dim>
 ValuesAround<Dim> values_on_own_side(const Layout<Dim>& layout, const Room<Dim>& room, const CellField<Dim>& phi,
                                      Site cell);
 
-// share_and_area() of a cell with these values.
+// liquid_share() and share_and_area() of a cell with these values.
 template <int Dim>
-VolumeAndArea share_on_own_side(const Layout<Dim>& layout, const Room<Dim>& room, const CellField<Dim>& phi,
-                                const NodeField<Dim>& psi, Site cell);
+double liquid_share(const Layout<Dim>& layout, const Room<Dim>& room, const CellField<Dim>& phi,
+                    const NodeField<Dim>& psi, Site cell);
+template <int Dim>
+VolumeAndArea share_and_area(const Layout<Dim>& layout, const Room<Dim>& room, const CellField<Dim>& phi,
+                             const NodeField<Dim>& psi, Site cell);
 
 }  // namespace seiche

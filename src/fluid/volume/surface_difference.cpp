@@ -28,7 +28,7 @@ Difference<Dim>::Difference(const Layout<Dim>& layout, const NodeField<Dim>& psi
   for_each_possible(layout, cells_around(layout, layout.halo() - 1), may_differ, [&](Site c) {
     const double v = share[c];
     if (std::abs(phi[c]) < reached * h) {
-      const VolumeAndArea found = share_on_own_side(layout, room, phi, psi, c);
+      const VolumeAndArea found = share_and_area(layout, room, phi, psi, c);
       area[c] = found.area;
       missing[c] = is_deep(layout, ledger, phi, share, c) ? 0 : v - std::min(found.volume, room.of(c));
     } else if (const double by_level_set = phi[c] < 0 ? room.of(c) : 0;
