@@ -24,6 +24,56 @@ AFTER_TWENTY_STEPS = 1e-7
 TWENTY_STEPS = DAM.replace("end = 0.2", "end = 0.1\nfixed_step = 0.005").replace("frame_rate = 20.0", "frame_rate = 10.0")
 TWENTY_STEPS += f'formats = ["vdb"]\nframes = ["surface", "velocity", "pressure"]\n[solver]\ntolerance = {TOLERANCE}\n'
 
+# Twenty steps of a quarter of the viscous limit, so that all that acts beside no-slip walls before the solve counts.
+STREAM = f"""\
+dimension = 2
+gravity = [0.0, -9.81]
+[domain]
+lower = [0.0, 0.0]
+upper = [1.2, 0.5]
+cell_size = 0.02
+[domain.boundary]
+x_lower = {{ type = "inflow", velocity = ["1.0", "0.0"] }}
+x_upper = "outflow"
+[time]
+end = 0.2
+frame_rate = 5.0
+fixed_step = 0.01
+[liquid]
+density = 1000.0
+viscosity = 10.0
+[[liquid.region]]
+shape = "expression"
+phi = "-1"
+[[solid]]
+name = "rest"
+shape = "sphere"
+center = [0.31, 0.27]
+radius = 0.07
+slip = "no_slip"
+[[solid]]
+name = "turns"
+kind = "kinematic"
+shape = "sphere"
+center = [0.61, 0.22]
+radius = 0.06
+slip = "no_slip"
+motion = {{ rotate = {{ center = [0.61, 0.22], degrees = "300*t" }} }}
+[[solid]]
+name = "sinks"
+kind = "rigid"
+shape = "sphere"
+center = [0.9, 0.33]
+radius = 0.06
+density = 1500.0
+slip = "no_slip"
+[output]
+formats = ["vdb"]
+frames = ["velocity", "pressure"]
+[solver]
+tolerance = {TOLERANCE}
+"""
+
 SPLASH = f"""\
 dimension = 3
 [domain]
@@ -639,6 +689,12 @@ def viscous_ranks_agree_2d(bench):
     expect(largest(stats(bench.path("one")), "viscous_dissipation") > 0, "nothing is dissipated")
 
 
+def streams_past_discs_agree(bench):
+    """Gently viscous liquid past a disc at rest, one that turns and one that sinks, on 1 and 3 ranks."""
+    ranks_agree(bench, STREAM, (3,))
+    expect(largest(table(bench.path("one"), "solids.csv"), "tz") > 0, "nothing acts on the discs")
+
+
 def mud_ranks_agree_2d(bench):
     """A dam of yield-stress liquid on 1 and 3 ranks, with a converged outer iteration."""
     ranks_agree(bench, MUD + "rheology_tolerance = 1e-9\nrheology_iterations = 100\n", (3,))
@@ -918,7 +974,7 @@ TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid
                        rigid_ranks_agree_3d,
                        elastic_ranks_agree_2d, sheet_ranks_agree, sprung_ranks_agree_2d, bounces_ranks_agree_2d,
                        beating_ranks_agree_3d, beating_ranks_agree_2d, viscous_ranks_agree_2d,
-                       mud_ranks_agree_2d, gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d,
+                       streams_past_discs_agree, mud_ranks_agree_2d, gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d,
                        viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d,
                        volumes_beside_post_agree, volumes_ranks_agree_3d, volumes_under_gas_agree,
                        volumes_round_bubble_agree, volumes_that_part_agree, volumes_that_set_off_agree,

@@ -5,6 +5,7 @@
 #include "base/scene.h"
 #include "base/solver_spec.h"
 #include "coupling/solids/end_of_step.h"
+#include "coupling/solids/known_loads.h"
 #include "coupling/solids/sealed_liquid.h"
 #include "coupling/solve/solve_parts.h"
 #include "coupling/solve/viscous_solve.h"
@@ -67,6 +68,7 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   SolidCoupling<Dim> coupling =
       couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
   push_by(input.convected, s.domain, r.rows, input.liquid.dt, coupling);
+  push_by(*input.known_loads, input.state.solids, input.geometry, input.liquid.dt, coupling);
   set_held_velocities(s.domain, coupling, input.geometry);
   take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.cavities);
   if (input.flux_of_end) add_flux_of_end(s.domain, r.rows, liquid.closed, *input.flux_of_end, input.geometry.faces);
@@ -119,7 +121,7 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
     state.solids = solids;
     CoupledSolution<Dim> trial = solve_once(CoupledInput<Dim>{
         input.setup, in, input.geometry, state, from, input.slope, input.flow, input.u_star, input.convected,
-        input.flux_of_end, input.horizon, input.viscosity, input.fault, input.at_walls, &moving});
+        input.known_loads, input.flux_of_end, input.horizon, input.viscosity, input.fault, input.at_walls, &moving});
     add_up(r.report, trial.report);
     std::swap(trial.report, r.report);
     r = std::move(trial);

@@ -6,6 +6,7 @@
 #include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/drops/deposit.h"
+#include "coupling/solids/load_sums.h"
 #include "coupling/solve/coupled_solve.h"
 #include "coupling/solve/rheology_iteration.h"
 #include "coupling/state/dry.h"
@@ -127,10 +128,10 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   const auto flow = task.before.exterior->joined_level(s.domain, s.fluids, task.before);
   const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
   const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
-  CoupledSolution<Dim> solution = solve_coupled(
-      CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, flow->q, flow->u, task.predicted.u_star,
-                        task.predicted.convected, end ? &end->flux : nullptr, out.state.horizon, viscosity, fault,
-                        earlier.at_walls ? &*earlier.at_walls : nullptr, &earlier.solids, &earlier.separated});
+  CoupledSolution<Dim> solution = solve_coupled(CoupledInput<Dim>{
+      s, liquid, out.geometry, out.state, guess, flow->q, flow->u, task.predicted.u_star, task.predicted.convected,
+      &task.predicted.wall_loads, end ? &end->flux : nullptr, out.state.horizon, viscosity, fault,
+      earlier.at_walls ? &*earlier.at_walls : nullptr, &earlier.solids, &earlier.separated});
   out.state.convected_loads = task.predicted.convected.loads;
   out.powers.contact = solution.contact_power;
   out.solve = solution.report;
@@ -212,6 +213,8 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
   out.failure = find_non_finite(s.domain, "u", level->u);
   out.state.now = level;
   out.state.viscous_loads = solution.viscous_loads;
+  for (const auto* loads : {&task.predicted.wall_loads, &task.predicted.slit_loads})
+    add_loads(*loads, out.state.viscous_loads);
   set_powers(task, solution, liquid, *level, out);
 }
 
@@ -296,6 +299,8 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
         convected_pressure(s.domain, s.fluids, s.solids, moved.state.solids, moved.geometry, phi, transported, way);
   p.u_star = std::move(transported.u);
   p.viscous_power = transported.viscous_power;
+  p.wall_loads = std::move(transported.wall_loads);
+  p.slit_loads = std::move(transported.slit_loads);
   p.by_sources = std::move(transported.by_sources);
   p.fed = moved.fed;
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow, gravity, times.dt, p.u_star);

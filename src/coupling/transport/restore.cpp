@@ -12,7 +12,6 @@
 #include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
 #include "grid/domain_faces.h"
-#include "grid/interpolation.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
 
@@ -20,15 +19,6 @@ namespace seiche {
 namespace {
 
 constexpr int straight_layers = 2;  // layers of linear extrapolation; constant beyond
-
-// All velocity components at x, m/s.
-template <int Dim>
-Vec<Dim> velocity_at_point(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x) {
-  Vec<Dim> v;
-  for (int b = 0; b < Dim; ++b)
-    v[b] = interpolate_cubic<Dim>(layout, u[b].data(), index_coordinates<Dim>(layout, x, face_offset<Dim>(b)));
-  return v;
-}
 
 // Velocities of the solids at faces, m/s. Deforming solids have one only on faces that they close, near their surface.
 template <int Dim>

@@ -11,6 +11,7 @@
 #include "coupling/state/state.h"
 #include "coupling/transport/beside_solids.h"
 #include "coupling/transport/carried_acceleration.h"
+#include "coupling/transport/flow_through_walls.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/path_origins.h"
@@ -19,7 +20,9 @@
 #include "coupling/transport/shear_jump.h"
 #include "coupling/transport/sources.h"
 #include "coupling/transport/two_fluids.h"
+#include "coupling/transport/viscous_memory.h"
 #include "coupling/transport/viscous_transport.h"
+#include "coupling/transport/wall_viscosity.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/boundary/inflow.h"
 #include "fluid/transport/advection.h"
@@ -142,53 +145,6 @@ FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, co
   return w;
 }
 
-// Fraction of the trend of N, the viscous acceleration, that viscous_memory() uses. If viscosity is stiff, N is large
-// and almost balanced by pressure. A trend known in only part of the liquid disturbs this balance and amplifies itself.
-// The fraction is 1 up to mu dt/(rho h^2) = 1/2 and 0 from 1 on, or 1 if all of the liquid is interior and no solid is
-// within reach. Collective.
-template <int Dim>
-double trust_in_viscous_trend(const Domain<Dim>& domain, const State<Dim>& state, const FaceField<Dim, char>& liquid,
-                              double dt) {
-  bool partial = false;
-  for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>&) {
-      const bool wet = state.phi[f] < 0 || state.phi[f - domain.layout.stride(a)] < 0 || state.exterior->flows();
-      partial = partial || (wet && !liquid.at(a, f));
-    });
-  return domain.ranks.any(partial) ? std::clamp(2 - 2 * dt * state.viscous_rate, 0.0, 1.0) : 1;
-}
-
-// Explicit part of the viscous term as a velocity increment, m/s:
-//   dt (c2 N(t) + c3 N(t - dt_now)),   N the viscous acceleration, N(t - dt_now) transported along the path.
-// Together with the implicit share c1 (ViscousPlan::implicit), c1 N(t + dt) + c2 N(t) + c3 N(t - dt_now) is N(t + dt/2)
-// to second order. For c1 = 1 the explicit part is a trend, -dt^2/(2 dt_now) (N(t) - N(t - dt_now)) times
-// trust_in_viscous_trend(). Zero where either level is unknown, for dt > 2 dt_now, and in first order.
-template <int Dim>
-FaceField<Dim> viscous_memory(const Domain<Dim>& domain, const Fluids& fluids, TimeScheme scheme,
-                              const State<Dim>& state, const Flow<Dim>& flow, const Surroundings<Dim>& around,
-                              double dt, const ViscousPlan& plan) {
-  const FaceField<Dim, char>& interior = around.liquid;  // docs/decisions/0026-steady-flow-and-steps.md
-  FaceField<Dim> memory(domain.layout);
-  if (!fluids.is_viscous() || !flow.before || scheme == TimeScheme::first_order) return memory;
-  if (dt > 2 * state.dt_now) return memory;
-  const double trust = trust_in_viscous_trend(domain, state, around.liquid, dt);
-  if (trust == 0) return memory;
-  const double earlier = (plan.implicit == 1 ? trust : 2 * plan.implicit - 1) * dt / (2 * state.dt_now),
-               present = 1 - plan.implicit - earlier;
-  const TimeLevel<Dim>& now = *flow.now;
-  FaceField<Dim> last = flow.before->n, carried(domain.layout);
-  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, last);
-  advect_faces(domain.layout, now.u, state.dt_now, interior, interior, last, last, carried);
-  const double limit = 0.25 * domain.layout.h() / (dt * dt);  // as for A
-  for (int a = 0; a < Dim; ++a)
-    for_each_marked(domain.layout, domain.layout.faces(a), interior[a].data(), [&](Site f) {
-      if (is_solved(now.valid.at(a, f)) && is_solved(flow.before->valid.at(a, f)))
-        memory.at(a, f) = dt * std::clamp(present * now.n.at(a, f) + earlier * carried.at(a, f), -limit, limit);
-    });
-  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, memory);
-  return memory;
-}
-
 // Field to transport: `inner` where all data it needs are known, `outer` elsewhere.
 template <int Dim>
 struct Carried {
@@ -196,12 +152,13 @@ struct Carried {
   const FaceField<Dim>& outer;
 };
 
-// u continued beyond the sides, m/s. Refers to u itself where nothing is continued, else to `own`.
+// u continued beyond the sides and through walls, m/s. Refers to u itself where nothing is continued, else to `own`.
 template <int Dim>
-const FaceField<Dim>& continued_flow(const Domain<Dim>& domain, const FaceField<Dim>& u, double t, bool beyond_walls,
-                                     FaceField<Dim>& own) {
-  if (!beyond_walls && !domain.sides.any_inflow() && !domain.sides.any_waves()) return u;
+const FaceField<Dim>& continued_flow(const Domain<Dim>& domain, const NoSlipSolids<Dim>& solids,
+                                     const FaceField<Dim>& u, double t, bool beyond_walls, FaceField<Dim>& own) {
+  if (!beyond_walls && !domain.sides.any_inflow() && !domain.sides.any_waves() && !solids.any()) return u;
   own = u;
+  continue_through_walls(domain, solids, own);
   if (beyond_walls) continue_beyond_walls(domain.layout, domain.sides, t, FaceValues::means, own);
   continue_beyond_inflows(domain.layout, domain.sides, t, own);
   return own;
@@ -229,6 +186,17 @@ void advect_means(const Domain<Dim>& domain, const OperatorPerturbation& perturb
       if (!near.at(a, f) || !interior.at(a, f) || !whole.at(a, f)) return;
       u.at(a, f) = carried.inner.at(a, f) + d.at(a, f) + excess_of_mean(domain.layout, d, a, f);
     });
+}
+
+// Forces of no-slip walls that are known before the solve.
+template <int Dim>
+void act_at_walls(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g, double dt,
+                  Transported<Dim>& r) {
+  const NoSlipSolids<Dim> solids(s, state, g);
+  const WallForces forces = add_wall_viscosity(s, solids, state, g, dt, r.u);
+  r.viscous_power += forces.power;
+  r.wall_loads = forces.loads;
+  r.slit_loads = stop_in_slits(s, solids, state, g, dt, r.u);
 }
 
 }  // namespace
@@ -302,15 +270,18 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
                                 const StepGeometry<Dim>& geometry) {
   const Surroundings<Dim> around(s, geometry, flow.now->valid, near, plan);
   const FaceField<Dim, char>& interior = around.interior;
-  const FaceField<Dim> path = path_velocity(s.domain, s.scene->time, state, flow, around, plan, dt),
-                       memory = viscous_memory(s.domain, s.fluids, s.scene->time.scheme, state, flow, around, dt, plan);
+  const NoSlipSolids<Dim> walls(s, state, geometry);
+  FaceField<Dim> path = path_velocity(s.domain, s.scene->time, state, flow, around, plan, dt);
+  continue_through_walls(s.domain, walls, path);
+  const FaceField<Dim> memory =
+      viscous_memory(s.domain, s.fluids, s.scene->time.scheme, state, flow, around.liquid, dt, plan);
   Transported<Dim> r;
   r.acceleration = carried_acceleration(s.domain, s.fluids, s.scene->time, s.perturbation, state, flow, around.reached,
                                         around.deep, dt);
   const FaceField<Dim>& acc = r.acceleration;
   FaceField<Dim> own;
   Carried<Dim> carried{FaceField<Dim>(s.domain.layout),
-                       continued_flow(s.domain, flow.now->u, state.time, plan.full, own)};
+                       continued_flow(s.domain, walls, flow.now->u, state.time, plan.full, own)};
   for (int a = 0; a < Dim; ++a)
     for_each_marked(s.domain.layout, s.domain.layout.padded(), around.reached.data(), [&](Site f) {
       carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
@@ -347,6 +318,7 @@ Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state
                : 0;
   };
   r.by_sources = set_source_velocity<Dim>(s.domain, sources.sources(), state.time, state.time + dt, mass, r.u);
+  act_at_walls(s, state, geometry, dt, r);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, r.u);
   return r;
 }

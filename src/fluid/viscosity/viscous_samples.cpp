@@ -18,7 +18,7 @@ Box<Dim> sampled(const Layout<Dim>& layout) {
 
 // Node at a corner of a face. Bit b - 1 of the corner's number is set if it is at the high end along axis + b.
 template <int Dim>
-Site corner_node(const Layout<Dim>& layout, int axis, Site f, int corner) {
+Site corner_of_face(const Layout<Dim>& layout, int axis, Site f, int corner) {
   for (int b = 1; b < Dim; ++b) f += ((corner >> (b - 1)) & 1) * layout.stride((axis + b) % Dim);
   return f;
 }
@@ -27,35 +27,19 @@ Site corner_node(const Layout<Dim>& layout, int axis, Site f, int corner) {
 // axes. On a ball of radius R it is h^2/(8R) per axis, which would be an error of the radius. It is at most h/8 in
 // magnitude if |grad psi| <= 1.
 template <int Dim>
-double curvature_part(const ViscousInput<Dim>& in, int axis, Site f) {
+double curvature_part(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site f) {
   constexpr int corners = 1 << (Dim - 1);
   double sum = 0;
   for (int b = 1; b < Dim; ++b) {
-    const Site d = in.layout.stride((axis + b) % Dim);
+    const Site d = layout.stride((axis + b) % Dim);
     double part = 0;
     for (int k = 0; k < corners; ++k) {
-      const Site node = corner_node(in.layout, axis, f, k);
-      part += in.psi[node] - in.psi[((k >> (b - 1)) & 1) ? node + d : node - d];
+      const Site node = corner_of_face(layout, axis, f, k);
+      part += psi[node] - psi[((k >> (b - 1)) & 1) ? node + d : node - d];
     }
-    sum += std::clamp(part * 2 / (16 * corners), -in.layout.h() / 8, in.layout.h() / 8);
+    sum += std::clamp(part * 2 / (16 * corners), -layout.h() / 8, layout.h() / 8);
   }
   return sum;
-}
-
-// Distance psi at a face's centre (m), and the solid of the corner with the smallest psi.
-template <int Dim>
-std::pair<double, std::int16_t> nearest_solid(const ViscousInput<Dim>& in, int axis, Site f) {
-  constexpr int corners = 1 << (Dim - 1);
-  double sum = 0, deepest = 1e300;
-  std::int16_t solid = -1;
-  for (int k = 0; k < corners; ++k) {
-    const Site node = corner_node(in.layout, axis, f, k);
-    sum += in.psi[node];
-    if (in.psi[node] < deepest) deepest = in.psi[node], solid = in.body[node];
-  }
-  const double mean = sum / corners;
-  if (std::abs(mean) > 3 * in.layout.h()) return {mean, solid};
-  return {mean + curvature_part(in, axis, f), solid};
 }
 
 // For each axis, the side beyond which a face lies: 0 lower, 1 upper, -1 none.
@@ -76,7 +60,7 @@ class Sampling {
 
   // Classifies faces that are not beyond a side. Rows decide later about unknowns in the halo.
   void classify(int axis, Site f, const IVec<Dim>& i) {
-    std::tie(out_.psi.at(axis, f), out_.solid.at(axis, f)) = nearest_solid(in_, axis, f);
+    std::tie(out_.psi.at(axis, f), out_.solid.at(axis, f)) = nearest_solid(layout_, in_.psi, in_.body, axis, f);
     if (is_beyond(sides_passed(layout_, axis, i))) return;
     const FaceKind kind = in_.faces.kind_at(axis, f);
     if (lies_in_solid(axis, f)) return set(axis, f, SampleKind::solid);
@@ -195,6 +179,22 @@ bool is_full(const ViscousInput<Dim>& in, const ViscousSamples<Dim>& s) {
 }  // namespace
 
 template <int Dim>
+std::pair<double, std::int16_t> nearest_solid(const Layout<Dim>& layout, const NodeField<Dim>& psi,
+                                              const NodeField<Dim, std::int16_t>& body, int axis, Site f) {
+  constexpr int corners = 1 << (Dim - 1);
+  double sum = 0, deepest = 1e300;
+  std::int16_t solid = -1;
+  for (int k = 0; k < corners; ++k) {
+    const Site node = corner_of_face(layout, axis, f, k);
+    sum += psi[node];
+    if (psi[node] < deepest) deepest = psi[node], solid = body[node];
+  }
+  const double mean = sum / corners;
+  if (std::abs(mean) > 3 * layout.h()) return {mean, solid};
+  return {mean + curvature_part(layout, psi, axis, f), solid};
+}
+
+template <int Dim>
 ViscousSamples<Dim> sample_faces(const ViscousInput<Dim>& in) {
   ViscousSamples<Dim> s;
   s.kind = FaceField<Dim, char>(in.layout, char(SampleKind::none));
@@ -232,5 +232,9 @@ template ViscousSamples<2> sample_faces<2>(const ViscousInput<2>&);
 template ViscousSamples<3> sample_faces<3>(const ViscousInput<3>&);
 template FaceRows<2> number_faces<2>(const ViscousInput<2>&);
 template FaceRows<3> number_faces<3>(const ViscousInput<3>&);
+template std::pair<double, std::int16_t> nearest_solid<2>(const Layout<2>&, const NodeField<2>&,
+                                                          const NodeField<2, std::int16_t>&, int, Site);
+template std::pair<double, std::int16_t> nearest_solid<3>(const Layout<3>&, const NodeField<3>&,
+                                                          const NodeField<3, std::int16_t>&, int, Site);
 
 }  // namespace seiche

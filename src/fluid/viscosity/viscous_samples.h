@@ -24,6 +24,11 @@ struct ViscousSamples {
   SampleKind kind_at(int axis, Site f) const { return SampleKind(kind.at(axis, f)); }
 };
 
+// Distance psi at a face's centre (m), and the solid of the corner with the smallest psi.
+template <int Dim>
+std::pair<double, std::int16_t> nearest_solid(const Layout<Dim>& layout, const NodeField<Dim>& psi,
+                                              const NodeField<Dim, std::int16_t>& body, int axis, Site face);
+
 // Collective.
 template <int Dim>
 ViscousSamples<Dim> sample_faces(const ViscousInput<Dim>& in);

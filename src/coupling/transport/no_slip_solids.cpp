@@ -1,0 +1,58 @@
+#include "coupling/transport/no_slip_solids.h"
+
+#include <algorithm>
+
+#include "base/scene.h"
+#include "base/time_spec.h"
+#include "coupling/state/fluids.h"
+#include "coupling/transport/beside_solids.h"
+#include "fluid/viscosity/viscous_samples.h"
+
+namespace seiche {
+
+template <int Dim>
+NoSlipSolids<Dim>::NoSlipSolids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g)
+    : layout_(s.domain.layout), geometry_(g) {
+  if (!s.fluids.is_viscous() || s.scene->time.scheme == TimeScheme::first_order) return;
+  for (std::size_t k = 0; k < s.solids.bodies.size(); ++k) {
+    const Body<Dim>& body = s.solids.bodies[k];
+    sticks_.push_back(body.spec().slip == Slip::no_slip && !body.is_thin() && !g.deforms(int(k)));
+  }
+  if (!any()) return;
+  for (const Placement& placed : place_moving_bodies(state)) motion_.push_back(placed.twist);
+}
+
+template <int Dim>
+bool NoSlipSolids<Dim>::any() const {
+  return std::find(sticks_.begin(), sticks_.end(), 1) != sticks_.end();
+}
+
+template <int Dim>
+std::pair<int, double> NoSlipSolids<Dim>::nearest(int axis, Site f) const {
+  const auto [psi, k] = nearest_solid(layout_, geometry_.psi, geometry_.body, axis, f);
+  return {k >= 0 && sticks_[std::size_t(k)] ? k : -1, psi};
+}
+
+template <int Dim>
+int NoSlipSolids<Dim>::around(int axis, Site f) const {
+  if (geometry_.psi[f] > 2 * layout_.h()) return -1;
+  const auto [k, psi] = nearest(axis, f);
+  return psi <= 0 ? k : -1;
+}
+
+template <int Dim>
+std::optional<FaceInSolid<Dim>> NoSlipSolids<Dim>::find(int axis, Site f, const IVec<Dim>& i, double deepest) const {
+  const double psi_at_corner = geometry_.psi[f] / layout_.h();
+  if (psi_at_corner > 2 || psi_at_corner < -deepest - 2) return {};
+  if (geometry_.faces.kind_at(axis, f) == FaceKind::prescribed) return {};
+  const auto [k, psi] = nearest(axis, f);
+  if (k < 0 || psi > 0 || psi <= -deepest * layout_.h()) return {};
+  const Vec<Dim> gradient = distance_at_face(layout_, geometry_.psi, axis, f).gradient;
+  if (gradient.norm() == 0) return {};
+  return FaceInSolid<Dim>{k, -psi / layout_.h(), gradient.normalized(), layout_.position(i, face_offset<Dim>(axis))};
+}
+
+template class NoSlipSolids<2>;
+template class NoSlipSolids<3>;
+
+}  // namespace seiche

@@ -1,0 +1,44 @@
+#pragma once
+// The no-slip solids beside which transport and viscosity are of second order, seen from the faces.
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
+
+namespace seiche {
+
+// A face centre within a solid.
+template <int Dim>
+struct FaceInSolid {
+  int solid;
+  double depth;             // below the surface, cells
+  Vec<Dim> normal, center;  // outward; of the face, m
+};
+
+// Solids that viscous fluid sticks to, and that neither deform nor are thinner than a cell. None in the scheme of first
+// order.
+template <int Dim>
+class NoSlipSolids {
+ public:
+  // With the velocities of the last solve. Keeps references.
+  NoSlipSolids(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry);
+
+  bool any() const;
+  // The solid of this kind that contains a face's centre; -1: none.
+  int around(int axis, Site face) const;
+  // The same, less than `deepest` cells below the surface and not on a side of the domain.
+  std::optional<FaceInSolid<Dim>> find(int axis, Site face, const IVec<Dim>& i, double deepest) const;
+  // The solid of this kind nearest to a face's centre (-1: none), and the distance from it, m.
+  std::pair<int, double> nearest(int axis, Site face) const;
+  Vec<Dim> velocity(int solid, const Vec<Dim>& x) const {
+    return truncate<Dim>(motion_[std::size_t(solid)].at(extend<Dim>(x)));
+  }
+
+ private:
+  const Layout<Dim>& layout_;
+  const StepGeometry<Dim>& geometry_;
+  std::vector<char> sticks_;
+  std::vector<Twist> motion_;
+};
+
+}  // namespace seiche
