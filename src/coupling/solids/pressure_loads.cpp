@@ -1,22 +1,21 @@
 #include "coupling/solids/pressure_loads.h"
 
+#include "fluid/viscosity/load_sums.h"
+
 namespace seiche {
 namespace {
 
-// This rank's part.
+// Adds this rank's part of the load on solid k.
 template <int Dim>
-SolidLoad local_load(const Layout<Dim>& layout, const CellField<Dim>& p, const FaceShares& shares, const Vec3& about) {
-  SolidLoad load;
+void add_pressure_load(const Layout<Dim>& layout, const CellField<Dim>& p, const FaceShares& shares, int k,
+                       LoadSums& sums) {
   for (const FaceShare& share : shares) {
     const double jump = p[share.face - layout.stride(share.axis)] - p[share.face];
     const IVec<Dim> i = layout.index(share.face);
     if (jump == 0 || !layout.faces(share.axis).contains(i)) continue;
-    Vec3 force = Vec3::Zero();
-    force[share.axis] = share.closed * layout.geometry().face_area() * jump;
-    load.force += force;
-    load.torque += (extend<Dim>(layout.position(i, face_offset<Dim>(share.axis))) - about).cross(force);
+    sums.add(k, extend<Dim>(layout.position(i, face_offset<Dim>(share.axis))),
+             share.closed * layout.geometry().face_area() * jump * Vec3::Unit(share.axis));
   }
-  return load;
 }
 
 }  // namespace
@@ -24,17 +23,13 @@ SolidLoad local_load(const Layout<Dim>& layout, const CellField<Dim>& p, const F
 template <int Dim>
 std::vector<SolidLoad> pressure_loads(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
                                       const CellField<Dim>& p) {
-  std::vector<double> sums;
-  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
-    const Vec3 reference = g.placed[k].pose.apply(solids.bodies[k].reference_point());
-    const SolidLoad load =
-        local_load(domain.layout, p, *g.shares[k], g.deforms(int(k)) ? reference : Vec3(g.pivots[k]));
-    for (const Vec3& v : {load.force, load.torque}) sums.insert(sums.end(), v.begin(), v.end());
-  }
-  if (!sums.empty()) domain.ranks.global_sum(sums);
-  std::vector<SolidLoad> loads(solids.bodies.size());
-  for (std::size_t k = 0; k < loads.size(); ++k) loads[k] = {Vec3(&sums[6 * k]), Vec3(&sums[6 * k + 3])};
-  return loads;
+  std::vector<Vec3> about;
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k)
+    about.push_back(g.deforms(int(k)) ? g.placed[k].pose.apply(solids.bodies[k].reference_point()) : g.pivots[k]);
+  LoadSums sums(about);
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k)
+    add_pressure_load(domain.layout, p, *g.shares[k], int(k), sums);
+  return sums.total(domain.ranks);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                   \

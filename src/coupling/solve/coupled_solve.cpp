@@ -68,7 +68,7 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   SolidCoupling<Dim> coupling =
       couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
   push_by(input.convected, s.domain, r.rows, input.liquid.dt, coupling);
-  push_by(*input.known_loads, input.state.solids, input.geometry, input.liquid.dt, coupling);
+  if (input.known_loads) push_by(*input.known_loads, input.state.solids, input.geometry, input.liquid.dt, coupling);
   set_held_velocities(s.domain, coupling, input.geometry);
   take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.cavities);
   if (input.flux_of_end) add_flux_of_end(s.domain, r.rows, liquid.closed, *input.flux_of_end, input.geometry.faces);
@@ -119,9 +119,10 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   do {
     input.geometry = still;
     state.solids = solids;
-    CoupledSolution<Dim> trial = solve_once(CoupledInput<Dim>{
-        input.setup, in, input.geometry, state, from, input.slope, input.flow, input.u_star, input.convected,
-        input.known_loads, input.flux_of_end, input.horizon, input.viscosity, input.fault, input.at_walls, &moving});
+    CoupledSolution<Dim> trial =
+        solve_once(CoupledInput<Dim>{input.setup, in, input.geometry, state, from, input.slope, input.flow,
+                                     input.u_star, input.convected, input.flux_of_end, input.horizon, input.viscosity,
+                                     input.fault, input.at_walls, &moving, nullptr, input.known_loads});
     add_up(r.report, trial.report);
     std::swap(trial.report, r.report);
     r = std::move(trial);

@@ -19,7 +19,6 @@ struct CoupledInput {
   const FaceField<Dim>& flow;   // velocities at the start of the step
   const FaceField<Dim>& u_star;
   const ConvectedPressure<Dim>& convected;
-  const std::vector<SolidLoad>* known_loads;  // on each solid, known before the solve; empty: none
   const PagedFaceField<Dim>* flux_of_end;     // EndOfStep::flux; null: none
   double horizon;
   const ViscosityField<Dim>* viscosity;  // null: inviscid
@@ -29,6 +28,8 @@ struct CoupledInput {
   const Eigen::VectorXd* solids = nullptr;
   // Cells separated from walls in an earlier solve of this step; null or empty: none.
   const CellField<Dim, char>* separated = nullptr;
+  // Loads known before the solve, one a solid; null or empty: none.
+  const std::vector<SolidLoad>* known_loads = nullptr;
 };
 
 template <int Dim>

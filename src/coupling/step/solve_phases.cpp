@@ -6,7 +6,6 @@
 #include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/drops/deposit.h"
-#include "coupling/solids/load_sums.h"
 #include "coupling/solve/coupled_solve.h"
 #include "coupling/solve/rheology_iteration.h"
 #include "coupling/state/dry.h"
@@ -20,6 +19,7 @@
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
 #include "coupling/transport/transport.h"
+#include "fluid/viscosity/load_sums.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 
@@ -130,8 +130,8 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
   CoupledSolution<Dim> solution = solve_coupled(CoupledInput<Dim>{
       s, liquid, out.geometry, out.state, guess, flow->q, flow->u, task.predicted.u_star, task.predicted.convected,
-      &task.predicted.wall_loads, end ? &end->flux : nullptr, out.state.horizon, viscosity, fault,
-      earlier.at_walls ? &*earlier.at_walls : nullptr, &earlier.solids, &earlier.separated});
+      end ? &end->flux : nullptr, out.state.horizon, viscosity, fault, earlier.at_walls ? &*earlier.at_walls : nullptr,
+      &earlier.solids, &earlier.separated, &task.predicted.wall_loads});
   out.state.convected_loads = task.predicted.convected.loads;
   out.powers.contact = solution.contact_power;
   out.solve = solution.report;
@@ -213,8 +213,7 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
   out.failure = find_non_finite(s.domain, "u", level->u);
   out.state.now = level;
   out.state.viscous_loads = solution.viscous_loads;
-  for (const auto* loads : {&task.predicted.wall_loads, &task.predicted.slit_loads})
-    add_loads(*loads, out.state.viscous_loads);
+  add_loads(task.predicted.wall_loads, out.state.viscous_loads);
   set_powers(task, solution, liquid, *level, out);
 }
 
@@ -288,19 +287,18 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   const CellField<Dim>& phi = moved.state.phi;
   Predicted<Dim> p;
   p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene->time, s.features, before, phi, times.dt);
+  const double way = p.viscosity.way = since_flow_fitted(s.fluids, s.solids, before, times);
   const PlacedSources<Dim> sources(s, moved.state, times.start + times.lead);
   Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry, sources,
                                                     moved.brought ? &*moved.brought : nullptr);
   const Vec3 gravity = s.fluids.gravity.of_step(moved.state.time, times.dt);
   act_on_liquid(s, phi, moved.state.time, times.dt, transported.u);
-  const double way = since_flow_fitted(s.fluids, s.solids, before, times);
   if (way > 0)
     p.convected =
         convected_pressure(s.domain, s.fluids, s.solids, moved.state.solids, moved.geometry, phi, transported, way);
   p.u_star = std::move(transported.u);
   p.viscous_power = transported.viscous_power;
   p.wall_loads = std::move(transported.wall_loads);
-  p.slit_loads = std::move(transported.slit_loads);
   p.by_sources = std::move(transported.by_sources);
   p.fed = moved.fed;
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow, gravity, times.dt, p.u_star);

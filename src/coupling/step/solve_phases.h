@@ -13,12 +13,12 @@ struct Predicted {
   FaceField<Dim> u_star;  // m/s, ghosts filled
   ConvectedPressure<Dim> convected;
   ViscousPlan viscosity;
-  double viscous_power = 0;                       // Transported::viscous_power
-  std::vector<SolidLoad> wall_loads, slit_loads;  // Transported's
-  std::vector<FaceImpulse> by_sources;            // Transported::by_sources
-  CellValues fed;                                 // Moved::fed
-  Filling<Dim> filling;                           // cells that count as liquid in the solve
-  std::string failure;                            // names a value that is not finite; empty: none
+  double viscous_power = 0;             // Transported::viscous_power
+  std::vector<SolidLoad> wall_loads;    // Transported::wall_loads
+  std::vector<FaceImpulse> by_sources;  // Transported::by_sources
+  CellValues fed;                       // Moved::fed
+  Filling<Dim> filling;                 // cells that count as liquid in the solve
+  std::string failure;                  // names a value that is not finite; empty: none
 };
 
 // u*, transported to the faces near liquid with the acceleration along its path. Collective.

@@ -6,11 +6,11 @@
 namespace seiche {
 namespace {
 
-constexpr double first = 1, second = 1.5;  // distance of the samples from the surface, cells: within the halo
-constexpr double shallow = 1;              // cells: faces less deep have samples of their own
-constexpr double deepest = 3;              // cells that transport reads
-constexpr int layers = 2;                  // of faces between `shallow` and `deepest`
-constexpr int turns = 3;                   // samples read faces within the solid, too
+constexpr double near_sample = 1, far_sample = 1.5;  // distance of the samples from the surface, cells: within the halo
+constexpr double shallow = 1;                        // cells: faces less deep have samples of their own
+constexpr double deepest = 3;                        // cells that transport reads
+constexpr int deep_layers = 2;                       // of faces between `shallow` and `deepest`
+constexpr int wall_turns = 3;                        // samples read faces within the solid, too
 
 // u' = slope s + bend s^2 at s cells outside the surface, for the component along the face's axis.
 template <int Dim>
@@ -35,7 +35,7 @@ void for_each_within(const Layout<Dim>& layout, const NoSlipSolids<Dim>& solids,
     });
 }
 
-// Profile from the samples along the normal. The tangential part t has t(0) = 0, t(first), t(second).
+// Profile from the samples along the normal. The tangential part t has t(0) = 0, t(near_sample), t(far_sample).
 template <int Dim>
 void sample_profile(const Layout<Dim>& layout, const NoSlipSolids<Dim>& solids, const FaceField<Dim>& u, int axis,
                     Site f, const FaceInSolid<Dim>& place, WallProfile<Dim>& profile) {
@@ -46,10 +46,11 @@ void sample_profile(const Layout<Dim>& layout, const NoSlipSolids<Dim>& solids, 
     return velocity_at_point(layout, u, x) - solids.velocity(place.solid, x);
   };
   const auto along = [&](const Vec<Dim>& w) { return w[axis] - w.dot(n) * n[axis]; };
-  const Vec<Dim> near = relative(first), far = relative(second);
-  const double t1 = along(near) / first, t2 = along(far) / second;
-  profile.slope.at(axis, f) = (t1 * second - t2 * first) / (second - first);
-  profile.bend.at(axis, f) = (t2 - t1) / (second - first) + near.dot(n) * n[axis] / (first * first);
+  const Vec<Dim> near = relative(near_sample), far = relative(far_sample);
+  const double t1 = along(near) / near_sample, t2 = along(far) / far_sample;
+  profile.slope.at(axis, f) = (t1 * far_sample - t2 * near_sample) / (far_sample - near_sample);
+  profile.bend.at(axis, f) =
+      (t2 - t1) / (far_sample - near_sample) + near.dot(n) * n[axis] / (near_sample * near_sample);
   profile.known.at(axis, f) = 1;
 }
 
@@ -78,13 +79,13 @@ template <int Dim>
 void continue_through_walls(const Domain<Dim>& domain, const NoSlipSolids<Dim>& solids, FaceField<Dim>& u) {
   if (!solids.any()) return;
   const Layout<Dim>& layout = domain.layout;
-  for (int turn = 0; turn < turns; ++turn) {
+  for (int turn = 0; turn < wall_turns; ++turn) {
     WallProfile<Dim> profile(layout);
     for_each_within(layout, solids, [&](int a, Site f, const FaceInSolid<Dim>& place) {
       if (place.depth < shallow) sample_profile(layout, solids, u, a, f, place, profile);
     });
     profile.fill_ghosts(domain.halo);
-    for (int n = 0; n < layers; ++n) deepen(domain, solids, profile);
+    for (int n = 0; n < deep_layers; ++n) deepen(domain, solids, profile);
     for_each_within(layout, solids, [&](int a, Site f, const FaceInSolid<Dim>& place) {
       if (!profile.known.at(a, f)) return;
       const double y = place.depth;

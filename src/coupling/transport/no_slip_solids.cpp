@@ -7,12 +7,13 @@
 #include "coupling/state/fluids.h"
 #include "coupling/transport/beside_solids.h"
 #include "fluid/viscosity/viscous_samples.h"
+#include "grid/interpolation.h"
 
 namespace seiche {
 
 template <int Dim>
-NoSlipSolids<Dim>::NoSlipSolids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g)
-    : layout_(s.domain.layout), geometry_(g) {
+NoSlipSolids<Dim>::NoSlipSolids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g, double way)
+    : layout_(s.domain.layout), geometry_(g), way_(way) {
   if (!s.fluids.is_viscous() || s.scene->time.scheme == TimeScheme::first_order) return;
   for (std::size_t k = 0; k < s.solids.bodies.size(); ++k) {
     const Body<Dim>& body = s.solids.bodies[k];
@@ -20,6 +21,8 @@ NoSlipSolids<Dim>::NoSlipSolids(const Setup<Dim>& s, const State<Dim>& state, co
   }
   if (!any()) return;
   for (const Placement& placed : place_moving_bodies(state)) motion_.push_back(placed.twist);
+  for (std::size_t k = 0; k < motion_.size(); ++k)
+    if (!s.solids.bodies[k].is_free()) motion_[k] = g.placed[k].twist;
 }
 
 template <int Dim>
@@ -40,16 +43,26 @@ int NoSlipSolids<Dim>::around(int axis, Site f) const {
   return psi <= 0 ? k : -1;
 }
 
+// The solid stood at x - way v: the distance then was that of x + way v now.
 template <int Dim>
 std::optional<FaceInSolid<Dim>> NoSlipSolids<Dim>::find(int axis, Site f, const IVec<Dim>& i, double deepest) const {
-  const double psi_at_corner = geometry_.psi[f] / layout_.h();
-  if (psi_at_corner > 2 || psi_at_corner < -deepest - 2) return {};
+  const double moved = layout_.halo(), psi_at_corner = geometry_.psi[f] / layout_.h();
+  if (psi_at_corner > moved || psi_at_corner < -deepest - moved) return {};
   if (geometry_.faces.kind_at(axis, f) == FaceKind::prescribed) return {};
-  const auto [k, psi] = nearest(axis, f);
-  if (k < 0 || psi > 0 || psi <= -deepest * layout_.h()) return {};
-  const Vec<Dim> gradient = distance_at_face(layout_, geometry_.psi, axis, f).gradient;
+  const int k = geometry_.body[f];
+  if (k < 0 || !sticks_[std::size_t(k)]) return {};
+  const Vec<Dim> center = layout_.position(i, face_offset<Dim>(axis));
+  const Vec<Dim> there = index_coordinates<Dim>(layout_, center + way_ * velocity(k, center), Vec<Dim>::Zero());
+  const auto distance = [&](const Vec<Dim>& at) { return interpolate_cubic<Dim>(layout_, geometry_.psi.data(), at); };
+  const double psi = distance(there);
+  if (psi > 0 || psi <= -deepest * layout_.h()) return {};
+  Vec<Dim> gradient;
+  for (int b = 0; b < Dim; ++b) {
+    const Vec<Dim> step = 0.5 * Vec<Dim>::Unit(b);
+    gradient[b] = distance(there + step) - distance(there - step);
+  }
   if (gradient.norm() == 0) return {};
-  return FaceInSolid<Dim>{k, -psi / layout_.h(), gradient.normalized(), layout_.position(i, face_offset<Dim>(axis))};
+  return FaceInSolid<Dim>{k, -psi / layout_.h(), gradient.normalized(), center};
 }
 
 template class NoSlipSolids<2>;

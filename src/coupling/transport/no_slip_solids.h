@@ -20,16 +20,20 @@ struct FaceInSolid {
 template <int Dim>
 class NoSlipSolids {
  public:
-  // With the velocities of the last solve. Keeps references.
-  NoSlipSolids(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry);
+  // With the velocities of the last solve. `way`: time from the places that the flow fits to those of `geometry`, s.
+  // Keeps references.
+  NoSlipSolids(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry, double way);
 
   bool any() const;
   // The solid of this kind that contains a face's centre; -1: none.
   int around(int axis, Site face) const;
-  // The same, less than `deepest` cells below the surface and not on a side of the domain.
+  // The same where the flow fits the solids, less than `deepest` cells below the surface and not on a side of the
+  // domain.
   std::optional<FaceInSolid<Dim>> find(int axis, Site face, const IVec<Dim>& i, double deepest) const;
   // The solid of this kind nearest to a face's centre (-1: none), and the distance from it, m.
   std::pair<int, double> nearest(int axis, Site face) const;
+  // Displacement since the places that the flow fits, m.
+  Vec<Dim> shift(int solid, const Vec<Dim>& x) const { return way_ * velocity(solid, x); }
   Vec<Dim> velocity(int solid, const Vec<Dim>& x) const {
     return truncate<Dim>(motion_[std::size_t(solid)].at(extend<Dim>(x)));
   }
@@ -37,6 +41,7 @@ class NoSlipSolids {
  private:
   const Layout<Dim>& layout_;
   const StepGeometry<Dim>& geometry_;
+  double way_;
   std::vector<char> sticks_;
   std::vector<Twist> motion_;
 };

@@ -26,6 +26,7 @@
 #include "fluid/boundary/domain.h"
 #include "fluid/boundary/inflow.h"
 #include "fluid/transport/advection.h"
+#include "fluid/viscosity/load_sums.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
 #include "levelset/redistance.h"
@@ -152,6 +153,16 @@ struct Carried {
   const FaceField<Dim>& outer;
 };
 
+// inner = outer + dt/2 A + memory, on the sites that transport reaches.
+template <int Dim>
+void set_inner(const Layout<Dim>& layout, const CellField<Dim, char>& reached, const FaceField<Dim>& acceleration,
+               const FaceField<Dim>& memory, double dt, Carried<Dim>& carried) {
+  for (int a = 0; a < Dim; ++a)
+    for_each_marked(layout, layout.padded(), reached.data(), [&](Site f) {
+      carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acceleration.at(a, f) + memory.at(a, f);
+    });
+}
+
 // u continued beyond the sides and through walls, m/s. Refers to u itself where nothing is continued, else to `own`.
 template <int Dim>
 const FaceField<Dim>& continued_flow(const Domain<Dim>& domain, const NoSlipSolids<Dim>& solids,
@@ -190,13 +201,14 @@ void advect_means(const Domain<Dim>& domain, const OperatorPerturbation& perturb
 
 // Forces of no-slip walls that are known before the solve.
 template <int Dim>
-void act_at_walls(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g, double dt,
+void act_at_walls(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g, double way, double dt,
                   Transported<Dim>& r) {
-  const NoSlipSolids<Dim> solids(s, state, g);
-  const WallForces forces = add_wall_viscosity(s, solids, state, g, dt, r.u);
+  const NoSlipSolids<Dim> solids(s, state, g, way);
+  const WallForces forces = add_wall_viscosity(s, solids, state, g, r.through_walls, dt, r.u);
+  r.through_walls = {};
   r.viscous_power += forces.power;
   r.wall_loads = forces.loads;
-  r.slit_loads = stop_in_slits(s, solids, state, g, dt, r.u);
+  add_loads(slit_loads(s, solids, state, g, dt), r.wall_loads);
 }
 
 }  // namespace
@@ -270,7 +282,7 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
                                 const StepGeometry<Dim>& geometry) {
   const Surroundings<Dim> around(s, geometry, flow.now->valid, near, plan);
   const FaceField<Dim, char>& interior = around.interior;
-  const NoSlipSolids<Dim> walls(s, state, geometry);
+  const NoSlipSolids<Dim> walls(s, state, geometry, plan.way);
   FaceField<Dim> path = path_velocity(s.domain, s.scene->time, state, flow, around, plan, dt);
   continue_through_walls(s.domain, walls, path);
   const FaceField<Dim> memory =
@@ -282,10 +294,7 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
   FaceField<Dim> own;
   Carried<Dim> carried{FaceField<Dim>(s.domain.layout),
                        continued_flow(s.domain, walls, flow.now->u, state.time, plan.full, own)};
-  for (int a = 0; a < Dim; ++a)
-    for_each_marked(s.domain.layout, s.domain.layout.padded(), around.reached.data(), [&](Site f) {
-      carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
-    });
+  set_inner(s.domain.layout, around.reached, acc, memory, dt, carried);
   // The viscous operator also couples faces beside those near liquid.
   FaceField<Dim>& u = r.u;
   u = s.fluids.is_viscous() ? flow.now->u : FaceField<Dim>(s.domain.layout);
@@ -302,7 +311,9 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
     for_each_marked(s.domain.layout, s.domain.layout.faces(a),
                     s.fluids.is_viscous() ? around.reached.data() : near[a].data(),
                     [&](Site f) { u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0)); });
+  stop_in_slits(s.domain, walls, state, geometry, *flow.now, g, dt, u);
   let_liquid_in(s.domain, s.fluids, s.scene->time, s.perturbation, *flow.now, paths, state.time, memory, u);
+  if (walls.any()) r.through_walls = std::move(own);
   return r;
 }
 
@@ -318,7 +329,7 @@ Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state
                : 0;
   };
   r.by_sources = set_source_velocity<Dim>(s.domain, sources.sources(), state.time, state.time + dt, mass, r.u);
-  act_at_walls(s, state, geometry, dt, r);
+  act_at_walls(s, state, geometry, plan.way, dt, r);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, r.u);
   return r;
 }

@@ -36,9 +36,10 @@ double closest_point_band(const Fluids& fluids);
 template <int Dim>
 struct Transported {
   FaceField<Dim> u, acceleration, gas_acceleration;
-  double viscous_power = 0;                           // of viscosity of fourth order beyond the viscous operator, W
-  std::vector<SolidLoad> wall_loads{}, slit_loads{};  // wall_viscosity.h; one a solid, or empty
-  std::vector<FaceImpulse> by_sources{};              // on what was where sources set the velocity
+  double viscous_power = 0;               // of viscosity of fourth order beyond the viscous operator, W
+  FaceField<Dim> through_walls{};         // velocity before the step, continued through walls; empty: no such walls
+  std::vector<SolidLoad> wall_loads{};    // wall_viscosity.h; one a solid, or empty
+  std::vector<FaceImpulse> by_sources{};  // on what was where sources set the velocity
 };
 
 // u before the projection on all faces next to liquid: the transported velocity plus

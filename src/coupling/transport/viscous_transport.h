@@ -22,6 +22,8 @@ struct ViscousPlan {
   // the explicit terms of fourth order, stability ends at mu dt/(rho h^2) of about 1. So 9/16 is used only in full
   // domains without bodies, up to 1/2.
   double implicit = 1;
+  // Time from the places of solids that the flow fits to those of the solve, s.
+  double way = 0;
 };
 
 // `phi` (m): of the solve. Collective.

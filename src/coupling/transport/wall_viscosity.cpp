@@ -1,19 +1,13 @@
 #include "coupling/transport/wall_viscosity.h"
 
-#include "coupling/solids/load_sums.h"
 #include "coupling/state/fluids.h"
 #include "coupling/transport/restore.h"
+#include "fluid/viscosity/load_sums.h"
+#include "grid/interpolation.h"
 #include "grid/loops.h"
 
 namespace seiche {
 namespace {
-
-// Share of these terms in a step: 1 up to mu dt/(rho h^2) = 1/2, 0 from 1 on, as for the trend of N. Stiff stress
-// balances the pressure; a part of it from the step before does not.
-template <int Dim>
-double share_of_explicit(const State<Dim>& state, double dt) {
-  return state.viscous_rate > 0 ? std::clamp(2 - 2 * dt * state.viscous_rate, 0.0, 1.0) : 0;
-}
 
 template <int Dim>
 std::vector<Vec3> reference_points(const Solids<Dim>& solids, const StepGeometry<Dim>& g) {
@@ -26,23 +20,22 @@ std::vector<Vec3> reference_points(const Solids<Dim>& solids, const StepGeometry
 // A link of a face to its neighbour along an axis: the length (cells) and the slope h du'/dx outwards, m/s.
 struct WallLink {
   double length = 1, slope = 0;
-  bool to_wall = false;
 };
 
 template <int Dim>
 class WallStress {
  public:
+  // `flow`: at the start of the step, continued through the walls.
   WallStress(const Layout<Dim>& layout, const NoSlipSolids<Dim>& solids, const StepGeometry<Dim>& g,
-             const TimeLevel<Dim>& now)
-      : layout_(layout), solids_(solids), g_(g), now_(now) {}
+             const CellField<Dim>& phi, const FaceField<Dim>& flow)
+      : layout_(layout), solids_(solids), g_(g), phi_(phi), flow_(flow) {}
 
   // h^2/nu times the acceleration that the operator lacks at a face outside the solids, m/s, and the solid that bears
   // the reaction: sum over the axes of (2/(theta- + theta+) - 1/w) S.
   std::pair<double, int> at(int a, Site f, const IVec<Dim>& i) const {
     const auto [solid, psi] = solids_.nearest(a, f);
-    if (solid < 0 || psi <= 0 || psi > 2 * layout_.h() || !is_solved(now_.valid.at(a, f))) return {0, -1};
-    const double w = g_.faces.open.at(a, f), own = relative(solid, a, f, i);
-    if (w <= 0) return {0, -1};
+    if (solid < 0 || psi <= 0 || psi > 2 * layout_.h() || !is_known(a, f)) return {0, -1};
+    const double w = g_.faces.open.at(a, f), own = relative(solid, a, i);
     double sum = 0;
     for (int b = 0; b < Dim; ++b) {
       const auto low = link(solid, psi, own, a, f, i, b, -1), high = link(solid, psi, own, a, f, i, b, 1);
@@ -52,38 +45,75 @@ class WallStress {
     }
     return {sum, solid};
   }
-  double relative(int solid, int a, Site f, const IVec<Dim>& i) const {
-    return now_.u.at(a, f) - solids_.velocity(solid, layout_.position(i, face_offset<Dim>(a)))[a];
+  // Velocity at a face relative to the solid: the flow moves along with it, as far as it has moved since they fitted.
+  double relative(int solid, int a, const IVec<Dim>& i) const {
+    const Vec<Dim> x = layout_.position(i, face_offset<Dim>(a)), way = solids_.shift(solid, x);
+    const double u = way.isZero(0)
+                         ? flow_.at(a, layout_.site(i))
+                         : interpolate_cubic<Dim>(layout_, flow_[a].data(),
+                                                  index_coordinates<Dim>(layout_, x - way, face_offset<Dim>(a)));
+    return u - solids_.velocity(solid, x)[a];
   }
 
  private:
+  // True if liquid is on both sides of an open face.
+  bool is_known(int a, Site f) const {
+    return phi_[f] < 0 && phi_[f - layout_.stride(a)] < 0 && g_.faces.open.at(a, f) > 0 && g_.faces.is_unknown(a, f);
+  }
   std::optional<WallLink> link(int solid, double psi, double own, int a, Site f, const IVec<Dim>& i, int b,
                                int side) const {
     const Site g = f + side * layout_.stride(b);
     const auto [k, there] = solids_.nearest(a, g);
     if (k >= 0 && there <= 0) {
       const double theta = std::clamp(psi / (psi - there), 1e-3, 1.0);
-      return WallLink{theta, -own / theta, true};
+      return WallLink{theta, -own / theta};
     }
-    if (!is_solved(now_.valid.at(a, g))) return {};
-    return WallLink{1, relative(solid, a, g, i + side * IVec<Dim>::Unit(b)) - own, false};
+    if (!is_known(a, g)) return {};
+    return WallLink{1, relative(solid, a, i + side * IVec<Dim>::Unit(b)) - own};
   }
 
   const Layout<Dim>& layout_;
   const NoSlipSolids<Dim>& solids_;
   const StepGeometry<Dim>& g_;
-  const TimeLevel<Dim>& now_;
+  const CellField<Dim>& phi_;
+  const FaceField<Dim>& flow_;
 };
+
+// Calls body(face, position, solid) for the owned faces open in part with their centre in a solid.
+template <int Dim, class Body>
+void for_each_slit(const Layout<Dim>& layout, const NoSlipSolids<Dim>& solids, const StepGeometry<Dim>& g, int axis,
+                   const Body& body) {
+  for_each_index_in_order(layout, layout.faces(axis), [&](Site f, const IVec<Dim>& i) {
+    const double open = g.faces.open.at(axis, f);
+    if (open <= 0 || open >= 1 || !g.faces.is_unknown(axis, f)) return;
+    if (const int k = solids.around(axis, f); k >= 0) body(f, layout.position(i, face_offset<Dim>(axis)), k);
+  });
+}
+
+// Share to which slits stop: 1 up to mu dt/(rho h^2) = 1/2, 0 from 1 on, where the operator stops them; 0 while this is
+// unknown.
+template <int Dim>
+double share_of_slits(const NoSlipSolids<Dim>& solids, const State<Dim>& state, double dt) {
+  return solids.any() && state.viscous_rate > 0 ? std::clamp(2 - 2 * dt * state.viscous_rate, 0.0, 1.0) : 0;
+}
+
+// Change (m/s) of a slit's velocity with which it ends the step with the solid's, `wall`, if the pressure gradient of
+// the step before goes on: u + fall + change - dt q = wall.
+template <int Dim>
+double stopping(const TimeLevel<Dim>& now, int a, Site f, double wall, double dt, double fall) {
+  const double held = is_solved(now.valid.at(a, f)) ? fall - dt * now.q.at(a, f) : 0;
+  return wall - now.u.at(a, f) - held;
+}
 
 }  // namespace
 
 template <int Dim>
 WallForces add_wall_viscosity(const Setup<Dim>& s, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
-                              const StepGeometry<Dim>& g, double dt, FaceField<Dim>& u_star) {
+                              const StepGeometry<Dim>& g, const FaceField<Dim>& flow, double dt,
+                              FaceField<Dim>& u_star) {
   const Layout<Dim>& layout = s.domain.layout;
-  const double share = share_of_explicit(state, dt);
-  if (!solids.any() || share == 0 || !s.fluids.constant_viscosity() || state.exterior->flows()) return {};
-  const WallStress<Dim> stress(layout, solids, g, *state.now);
+  if (!solids.any() || state.viscous_rate == 0 || !s.fluids.constant_viscosity() || state.exterior->flows()) return {};
+  const WallStress<Dim> stress(layout, solids, g, state.phi, flow);
   const double mass = s.fluids.density() * layout.geometry().cell_volume();
   LoadSums sums(reference_points(s.solids, g));
   double power = 0;
@@ -92,44 +122,54 @@ WallForces add_wall_viscosity(const Setup<Dim>& s, const NoSlipSolids<Dim>& soli
       if (g.psi[f] > 4 * layout.h() || !(state.phi[f] < 0 && state.phi[f - layout.stride(a)] < 0)) return;
       const auto [lacking, k] = stress.at(a, f, i);
       if (lacking == 0) return;
-      const double added = share * state.viscous_rate * dt * lacking;
+      const double added = state.viscous_rate * dt * lacking;
       const double force = mass * g.faces.open.at(a, f) * added / dt;
       u_star.at(a, f) += added;
-      power += force * stress.relative(k, a, f, i);
+      power += force * stress.relative(k, a, i);
       sums.add(k, extend<Dim>(layout.position(i, face_offset<Dim>(a))), -force * Vec3::Unit(a));
     });
   return {sums.total(s.domain.ranks), s.domain.ranks.global_sum(power)};
 }
 
 template <int Dim>
-std::vector<SolidLoad> stop_in_slits(const Setup<Dim>& s, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
-                                     const StepGeometry<Dim>& g, double dt, FaceField<Dim>& u_star) {
+void stop_in_slits(const Domain<Dim>& domain, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
+                   const StepGeometry<Dim>& g, const TimeLevel<Dim>& now, const Vec3& gravity, double dt,
+                   FaceField<Dim>& u) {
+  const double share = share_of_slits(solids, state, dt);
+  if (share == 0) return;
+  for (int a = 0; a < Dim; ++a)
+    for_each_slit(domain.layout, solids, g, a, [&](Site f, const Vec<Dim>& x, int k) {
+      u.at(a, f) =
+          now.u.at(a, f) + dt * gravity[a] + share * stopping(now, a, f, solids.velocity(k, x)[a], dt, dt * gravity[a]);
+    });
+}
+
+template <int Dim>
+std::vector<SolidLoad> slit_loads(const Setup<Dim>& s, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
+                                  const StepGeometry<Dim>& g, double dt) {
   const Layout<Dim>& layout = s.domain.layout;
-  const double share = share_of_explicit(state, dt);
-  if (!solids.any() || share == 0) return {};
+  const double share = share_of_slits(solids, state, dt), volume = layout.geometry().cell_volume();
+  if (share == 0) return {};
+  const Vec3 gravity = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
+  const auto now = state.exterior->joined_level(s.domain, s.fluids, state);
   LoadSums sums(reference_points(s.solids, g));
   for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(layout, layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-      const double open = g.faces.open.at(a, f);
-      if (open <= 0 || open >= 1 || !g.faces.is_unknown(a, f)) return;
-      const int k = solids.around(a, f);
-      if (k < 0) return;
-      const Vec<Dim> x = layout.position(i, face_offset<Dim>(a));
-      const double change = share * (solids.velocity(k, x)[a] - u_star.at(a, f));
-      u_star.at(a, f) += change;
-      if (s.solids.bodies[std::size_t(k)].is_free()) return;
+    for_each_slit(layout, solids, g, a, [&](Site f, const Vec<Dim>& x, int k) {
       const bool wet = state.phi[f] < 0 || state.phi[f - layout.stride(a)] < 0;
       const double density = wet ? s.fluids.density() : state.exterior->flows() ? s.fluids.gas_density() : 0;
-      sums.add(k, extend<Dim>(x), -density * open * layout.geometry().cell_volume() * change / dt * Vec3::Unit(a));
+      const double change = share * stopping(*now, a, f, solids.velocity(k, x)[a], dt, dt * gravity[a]);
+      sums.add(k, extend<Dim>(x), -density * g.faces.open.at(a, f) * volume * change / dt * Vec3::Unit(a));
     });
   return sums.total(s.domain.ranks);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                \
-  template WallForces add_wall_viscosity<D>(const Setup<D>&, const NoSlipSolids<D>&, const State<D>&,        \
-                                            const StepGeometry<D>&, double, FaceField<D>&);                  \
-  template std::vector<SolidLoad> stop_in_slits<D>(const Setup<D>&, const NoSlipSolids<D>&, const State<D>&, \
-                                                   const StepGeometry<D>&, double, FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                       \
+  template WallForces add_wall_viscosity<D>(const Setup<D>&, const NoSlipSolids<D>&, const State<D>&,               \
+                                            const StepGeometry<D>&, const FaceField<D>&, double, FaceField<D>&);    \
+  template void stop_in_slits<D>(const Domain<D>&, const NoSlipSolids<D>&, const State<D>&, const StepGeometry<D>&, \
+                                 const TimeLevel<D>&, const Vec3&, double, FaceField<D>&);                          \
+  template std::vector<SolidLoad> slit_loads<D>(const Setup<D>&, const NoSlipSolids<D>&, const State<D>&,           \
+                                                const StepGeometry<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

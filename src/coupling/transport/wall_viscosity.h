@@ -13,17 +13,26 @@ struct WallForces {
 
 // Viscous stress by parabolas. Beside a wall the operator has the force mu h^(Dim-2) S at a face, S = D+ - D- the
 // difference of slopes along each axis, D = (u_wall - u)/theta to the wall. The parabola through the three points has
-// 2 w S/(theta- + theta+), w the open share of the face. Adds the difference to u_star (m/s), with the velocities at
-// the start of the step; the opposite acts on the solid. Only constant viscosity, without gas that flows. Collective.
+// 2 w S/(theta- + theta+), w the open share of the face. Adds the difference to u_star (m/s), with `flow`, the
+// velocities at the start of the step continued through walls; the opposite acts on the solid. Only constant viscosity,
+// without gas that flows. Collective.
 template <int Dim>
 WallForces add_wall_viscosity(const Setup<Dim>& setup, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
-                              const StepGeometry<Dim>& geometry, double dt, FaceField<Dim>& u_star);
+                              const StepGeometry<Dim>& geometry, const FaceField<Dim>& flow, double dt,
+                              FaceField<Dim>& u_star);
 
-// Faces open in part with their centre in a solid start the step with its velocity. Their flow is in the fluxes of cut
-// faces (fluid/viscosity/no_slip_flux), and their own velocity is a mean over the open part, which no face beside them
-// may read as a point. Returns what they lose, as loads on solids that do not move freely, N. Collective.
+// Faces open in part with their centre in a solid ("slits") move with it. Their flow is in the fluxes of cut faces
+// (fluid/viscosity/no_slip_flux). Sets u (m/s), that of the fluid `now` transported over dt (s) with its `gravity`
+// (m/s^2), to the velocity with which the solve leaves them that of the solid.
 template <int Dim>
-std::vector<SolidLoad> stop_in_slits(const Setup<Dim>& setup, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
-                                     const StepGeometry<Dim>& geometry, double dt, FaceField<Dim>& u_star);
+void stop_in_slits(const Domain<Dim>& domain, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
+                   const StepGeometry<Dim>& geometry, const TimeLevel<Dim>& now, const Vec3& gravity, double dt,
+                   FaceField<Dim>& u);
+
+// Momentum that these faces lose in a step of dt (s) by that, as loads on the solids: the pressure on the fluid that
+// moves with them is part of it. Collective.
+template <int Dim>
+std::vector<SolidLoad> slit_loads(const Setup<Dim>& setup, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
+                                  const StepGeometry<Dim>& geometry, double dt);
 
 }  // namespace seiche

@@ -1,3 +1,4 @@
+#include "fluid/viscosity/load_sums.h"
 #include "fluid/viscosity/viscous_terms.h"
 
 namespace seiche {
@@ -37,13 +38,12 @@ template <int Dim>
 std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
                                       const FaceField<Dim>& u, const Eigen::VectorXd& v,
                                       const std::vector<Vec3>& about) {
-  std::vector<double> sum(6 * in.solids.size());
+  LoadSums sums(about);
   const ViscousTerms<Dim> terms(in, *system.samples);
   terms.for_each_owned([&](const ViscousTerm<Dim>& t) {
     const SlotValues<Dim> s = values_of(terms, t, {u, v});
     const auto push = [&](int k, const Slot& slot, double force) {
-      const Vec3 f = force * Vec3::Unit(slot.axis), moment = (terms.position(slot) - about[k]).cross(f);
-      for (int c = 0; c < 3; ++c) sum[6 * k + c] += f[c], sum[6 * k + 3 + c] += moment[c];
+      sums.add(k, terms.position(slot), force * Vec3::Unit(slot.axis));
     };
     for (int i = 0; i < t.slots; ++i) {
       const int k = terms.solid(t.slot[i]);
@@ -53,11 +53,7 @@ std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const Viscous
       if (t.frame >= 0) push(t.frame, t.slot[i], force);
     }
   });
-  in.ranks.global_sum(sum);
-  std::vector<SolidLoad> loads(in.solids.size());
-  for (std::size_t k = 0; k < loads.size(); ++k)
-    for (int c = 0; c < 3; ++c) loads[k].force[c] = sum[6 * k + c], loads[k].torque[c] = sum[6 * k + 3 + c];
-  return loads;
+  return sums.total(in.ranks);
 }
 
 // A slot without row and solid reads a side. The side pushes the fluid with the slope of the term.

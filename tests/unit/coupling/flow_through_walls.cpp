@@ -57,7 +57,7 @@ double error_below(const Vec3& normal, Slip slip = Slip::no_slip) {
       const Vec<Dim> x = layout.position(i, face_offset<Dim>(a));
       u.at(a, f) = distance(x) > 0 ? exact(x)[a] : 0.3;
     });
-  continue_through_walls(setup.domain, NoSlipSolids<Dim>(setup, state, g), u);
+  continue_through_walls(setup.domain, NoSlipSolids<Dim>(setup, state, g, 0), u);
   double worst = 0;
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(layout, layout.cells(), [&](Site f, const IVec<Dim>& i) {
