@@ -28,8 +28,7 @@ struct CoupledInput {
   const Eigen::VectorXd* solids = nullptr;
   // Cells separated from walls in an earlier solve of this step; null or empty: none.
   const CellField<Dim, char>* separated = nullptr;
-  // Loads known before the solve, one a solid; null or empty: none.
-  const std::vector<SolidLoad>* known_loads = nullptr;
+  const KnownLoads* known_loads = nullptr;  // null: none
 };
 
 template <int Dim>

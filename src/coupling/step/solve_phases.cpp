@@ -213,7 +213,8 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
   out.failure = find_non_finite(s.domain, "u", level->u);
   out.state.now = level;
   out.state.viscous_loads = solution.viscous_loads;
-  add_loads(task.predicted.wall_loads, out.state.viscous_loads);
+  for (const auto* loads : {&task.predicted.wall_loads.stress, &task.predicted.wall_loads.carrying})
+    add_loads(*loads, out.state.viscous_loads);
   set_powers(task, solution, liquid, *level, out);
 }
 

@@ -14,7 +14,7 @@ struct Predicted {
   ConvectedPressure<Dim> convected;
   ViscousPlan viscosity;
   double viscous_power = 0;             // Transported::viscous_power
-  std::vector<SolidLoad> wall_loads;    // Transported::wall_loads
+  KnownLoads wall_loads;                // Transported::wall_loads
   std::vector<FaceImpulse> by_sources;  // Transported::by_sources
   CellValues fed;                       // Moved::fed
   Filling<Dim> filling;                 // cells that count as liquid in the solve

@@ -16,7 +16,7 @@ struct FaceInSolid {
 };
 
 // Solids that viscous fluid sticks to, and that neither deform nor are thinner than a cell. None in the scheme of first
-// order.
+// order, and where one of the fluids has no viscosity.
 template <int Dim>
 class NoSlipSolids {
  public:
@@ -32,8 +32,10 @@ class NoSlipSolids {
   std::optional<FaceInSolid<Dim>> find(int axis, Site face, const IVec<Dim>& i, double deepest) const;
   // The solid of this kind nearest to a face's centre (-1: none), and the distance from it, m.
   std::pair<int, double> nearest(int axis, Site face) const;
-  // Displacement since the places that the flow fits, m.
-  Vec<Dim> shift(int solid, const Vec<Dim>& x) const { return way_ * velocity(solid, x); }
+  // Where a point that moves with the solid was when the flow fitted it (m), and the velocity of that flow `u` there,
+  // turned with the solid, m/s.
+  Vec<Dim> before(int solid, const Vec<Dim>& x) const;
+  double moved_flow(const FaceField<Dim>& u, int solid, int axis, const IVec<Dim>& i) const;
   Vec<Dim> velocity(int solid, const Vec<Dim>& x) const {
     return truncate<Dim>(motion_[std::size_t(solid)].at(extend<Dim>(x)));
   }
@@ -44,6 +46,7 @@ class NoSlipSolids {
   double way_;
   std::vector<char> sticks_;
   std::vector<Twist> motion_;
+  std::vector<Eigen::Matrix3d> turn_;  // since then
 };
 
 }  // namespace seiche

@@ -207,8 +207,8 @@ void act_at_walls(const Setup<Dim>& s, const State<Dim>& state, const StepGeomet
   const WallForces forces = add_wall_viscosity(s, solids, state, g, r.through_walls, dt, r.u);
   r.through_walls = {};
   r.viscous_power += forces.power;
-  r.wall_loads = forces.loads;
-  add_loads(slit_loads(s, solids, state, g, dt), r.wall_loads);
+  r.wall_loads.stress = forces.loads;
+  add_slit_loads(s, solids, state, g, dt, r.wall_loads);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "coupling/transport/sources.h"
 #include "coupling/transport/viscous_transport.h"
 #include "fluid/boundary/domain.h"
+#include "fluid/viscosity/load_sums.h"
 
 namespace seiche {
 
@@ -38,7 +39,7 @@ struct Transported {
   FaceField<Dim> u, acceleration, gas_acceleration;
   double viscous_power = 0;               // of viscosity of fourth order beyond the viscous operator, W
   FaceField<Dim> through_walls{};         // velocity before the step, continued through walls; empty: no such walls
-  std::vector<SolidLoad> wall_loads{};    // wall_viscosity.h; one a solid, or empty
+  KnownLoads wall_loads{};                // wall_viscosity.h
   std::vector<FaceImpulse> by_sources{};  // on what was where sources set the velocity
 };
 

@@ -3,7 +3,6 @@
 #include "coupling/state/fluids.h"
 #include "coupling/transport/restore.h"
 #include "fluid/viscosity/load_sums.h"
-#include "grid/interpolation.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -47,12 +46,8 @@ class WallStress {
   }
   // Velocity at a face relative to the solid: the flow moves along with it, as far as it has moved since they fitted.
   double relative(int solid, int a, const IVec<Dim>& i) const {
-    const Vec<Dim> x = layout_.position(i, face_offset<Dim>(a)), way = solids_.shift(solid, x);
-    const double u = way.isZero(0)
-                         ? flow_.at(a, layout_.site(i))
-                         : interpolate_cubic<Dim>(layout_, flow_[a].data(),
-                                                  index_coordinates<Dim>(layout_, x - way, face_offset<Dim>(a)));
-    return u - solids_.velocity(solid, x)[a];
+    const Vec<Dim> x = layout_.position(i, face_offset<Dim>(a));
+    return solids_.moved_flow(flow_, solid, a, i) - solids_.velocity(solid, x)[a];
   }
 
  private:
@@ -135,8 +130,8 @@ template <int Dim>
 void stop_in_slits(const Domain<Dim>& domain, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
                    const StepGeometry<Dim>& g, const TimeLevel<Dim>& now, const Vec3& gravity, double dt,
                    FaceField<Dim>& u) {
+  if (!solids.any()) return;
   const double share = share_of_slits(solids, state, dt);
-  if (share == 0) return;
   for (int a = 0; a < Dim; ++a)
     for_each_slit(domain.layout, solids, g, a, [&](Site f, const Vec<Dim>& x, int k) {
       u.at(a, f) =
@@ -145,22 +140,31 @@ void stop_in_slits(const Domain<Dim>& domain, const NoSlipSolids<Dim>& solids, c
 }
 
 template <int Dim>
-std::vector<SolidLoad> slit_loads(const Setup<Dim>& s, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
-                                  const StepGeometry<Dim>& g, double dt) {
+void add_slit_loads(const Setup<Dim>& s, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
+                    const StepGeometry<Dim>& g, double dt, KnownLoads& loads) {
   const Layout<Dim>& layout = s.domain.layout;
   const double share = share_of_slits(solids, state, dt), volume = layout.geometry().cell_volume();
-  if (share == 0) return {};
+  if (share == 0) return;
   const Vec3 gravity = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
   const auto now = state.exterior->joined_level(s.domain, s.fluids, state);
-  LoadSums sums(reference_points(s.solids, g));
+  const std::vector<Vec3> about = reference_points(s.solids, g);
+  LoadSums sums(about);
+  std::vector<double> inertia(36 * about.size());
   for (int a = 0; a < Dim; ++a)
     for_each_slit(layout, solids, g, a, [&](Site f, const Vec<Dim>& x, int k) {
       const bool wet = state.phi[f] < 0 || state.phi[f - layout.stride(a)] < 0;
       const double density = wet ? s.fluids.density() : state.exterior->flows() ? s.fluids.gas_density() : 0;
       const double change = share * stopping(*now, a, f, solids.velocity(k, x)[a], dt, dt * gravity[a]);
-      sums.add(k, extend<Dim>(x), -density * g.faces.open.at(a, f) * volume * change / dt * Vec3::Unit(a));
+      const double mass = density * g.faces.open.at(a, f) * volume;
+      sums.add(k, extend<Dim>(x), -mass * change / dt * Vec3::Unit(a));
+      Eigen::Matrix<double, 6, 1> arm;
+      arm << Vec3::Unit(a), Vec3(extend<Dim>(x) - about[std::size_t(k)]).cross(Vec3::Unit(a));
+      Eigen::Map<Eigen::Matrix<double, 6, 6>>(&inertia[36 * std::size_t(k)]) += share * mass * arm * arm.transpose();
     });
-  return sums.total(s.domain.ranks);
+  s.domain.ranks.global_sum(inertia);
+  loads.carrying = sums.total(s.domain.ranks);
+  for (std::size_t k = 0; k < about.size(); ++k)
+    loads.carried.emplace_back(Eigen::Map<Eigen::Matrix<double, 6, 6>>(&inertia[36 * k]));
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                       \
@@ -168,8 +172,8 @@ std::vector<SolidLoad> slit_loads(const Setup<Dim>& s, const NoSlipSolids<Dim>& 
                                             const StepGeometry<D>&, const FaceField<D>&, double, FaceField<D>&);    \
   template void stop_in_slits<D>(const Domain<D>&, const NoSlipSolids<D>&, const State<D>&, const StepGeometry<D>&, \
                                  const TimeLevel<D>&, const Vec3&, double, FaceField<D>&);                          \
-  template std::vector<SolidLoad> slit_loads<D>(const Setup<D>&, const NoSlipSolids<D>&, const State<D>&,           \
-                                                const StepGeometry<D>&, double);
+  template void add_slit_loads<D>(const Setup<D>&, const NoSlipSolids<D>&, const State<D>&, const StepGeometry<D>&, \
+                                  double, KnownLoads&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

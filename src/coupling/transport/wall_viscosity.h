@@ -2,6 +2,7 @@
 // What the viscous operator lacks beside no-slip solids, as forces known before the solve
 // (docs/decisions/0067-flow-through-walls.md).
 #include "coupling/transport/no_slip_solids.h"
+#include "fluid/viscosity/load_sums.h"
 
 namespace seiche {
 
@@ -23,16 +24,17 @@ WallForces add_wall_viscosity(const Setup<Dim>& setup, const NoSlipSolids<Dim>& 
 
 // Faces open in part with their centre in a solid ("slits") move with it. Their flow is in the fluxes of cut faces
 // (fluid/viscosity/no_slip_flux). Sets u (m/s), that of the fluid `now` transported over dt (s) with its `gravity`
-// (m/s^2), to the velocity with which the solve leaves them that of the solid.
+// (m/s^2), to the velocity with which the solve leaves them that of the solid; where viscosity is stiff, to their own:
+// transport reads no mean over an open part, and gives none.
 template <int Dim>
 void stop_in_slits(const Domain<Dim>& domain, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
                    const StepGeometry<Dim>& geometry, const TimeLevel<Dim>& now, const Vec3& gravity, double dt,
                    FaceField<Dim>& u);
 
 // Momentum that these faces lose in a step of dt (s) by that, as loads on the solids: the pressure on the fluid that
-// moves with them is part of it. Collective.
+// moves with them is part of it; and their inertia. Collective.
 template <int Dim>
-std::vector<SolidLoad> slit_loads(const Setup<Dim>& setup, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
-                                  const StepGeometry<Dim>& geometry, double dt);
+void add_slit_loads(const Setup<Dim>& setup, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
+                    const StepGeometry<Dim>& geometry, double dt, KnownLoads& loads);
 
 }  // namespace seiche

@@ -7,6 +7,13 @@
 
 namespace seiche {
 
+// Loads on solids that are known before a solve, one entry a solid each, or empty: by stress, and of fluid that moves
+// with the solids. `carried`: inertia of that fluid (force and torque about the solid's reference point).
+struct KnownLoads {
+  std::vector<SolidLoad> stress, carrying;
+  std::vector<Eigen::Matrix<double, 6, 6>> carried;
+};
+
 class LoadSums {
  public:
   // `about`: one point a solid, m.

@@ -24,8 +24,9 @@ Scene scene_of_disc() {
   return s;
 }
 
-// Push of the load (3, 4) N, 5 N m about the disc's centre, over 0.1 s.
-Eigen::VectorXd push_on_disc(Freedom sideways) {
+// Push of the load (3, 4) N, 5 N m about the disc's centre, over 0.1 s: by stress, or for carrying fluid of the disc's
+// own mass.
+Eigen::VectorXd push_on_disc(Freedom sideways, bool carries = false) {
   const Setup<2> setup(scene_of_disc(), Communicator());
   const State<2> state = initial_state(setup);
   const StepGeometry<2> g = setup.solids.geometry.measure(place_bodies(state), 0);
@@ -34,7 +35,11 @@ Eigen::VectorXd push_on_disc(Freedom sideways) {
   c.first = {0, 3};
   c.push = Eigen::VectorXd::Ones(3);
   c.freedom = {sideways, Freedom::free, Freedom::free};
-  push_by<2>(std::vector<SolidLoad>{{Vec3(3, 4, 0), Vec3(0, 0, 5)}}, state.solids, g, 0.1, c);
+  c.mass = SparseMatrix(Eigen::Matrix3d(2 * Eigen::Matrix3d::Identity()).sparseView());
+  KnownLoads loads;
+  (carries ? loads.carrying : loads.stress) = {{Vec3(3, 4, 0), Vec3(0, 0, 5)}};
+  if (carries) loads.carried = {2 * Eigen::Matrix<double, 6, 6>::Identity()};
+  push_by<2>(loads, state.solids, g, 0.1, c);
   return c.push - Eigen::VectorXd::Ones(3);
 }
 
@@ -43,6 +48,10 @@ Eigen::VectorXd push_on_disc(Freedom sideways) {
 TEST_CASE("a known load pushes a free disc, but not along fixed axes", "[rigid]") {
   CHECK((push_on_disc(Freedom::free) - Eigen::Vector3d(0.3, 0.4, 0.5)).norm() == Approx(0).margin(1e-14));
   CHECK((push_on_disc(Freedom::fixed) - Eigen::Vector3d(0, 0.4, 0.5)).norm() == Approx(0).margin(1e-14));
+}
+
+TEST_CASE("fluid that moves with a free disc shares the load of carrying it", "[rigid]") {
+  CHECK((push_on_disc(Freedom::free, true) - Eigen::Vector3d(0.15, 0.2, 0.25)).norm() == Approx(0).margin(1e-14));
 }
 
 }  // namespace known_loads_tests
