@@ -19,7 +19,7 @@ struct CoupledInput {
   const FaceField<Dim>& flow;   // velocities at the start of the step
   const FaceField<Dim>& u_star;
   const ConvectedPressure<Dim>& convected;
-  const PagedFaceField<Dim>* flux_of_end;     // EndOfStep::flux; null: none
+  const PagedFaceField<Dim>* flux_of_end;  // EndOfStep::flux; null: none
   double horizon;
   const ViscosityField<Dim>* viscosity;  // null: inviscid
   PhaseFault fault;

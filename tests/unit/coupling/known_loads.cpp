@@ -37,7 +37,8 @@ Eigen::VectorXd push_on_disc(Freedom sideways, bool carries = false) {
   c.freedom = {sideways, Freedom::free, Freedom::free};
   c.mass = SparseMatrix(Eigen::Matrix3d(2 * Eigen::Matrix3d::Identity()).sparseView());
   KnownLoads loads;
-  (carries ? loads.carrying : loads.stress) = {{Vec3(3, 4, 0), Vec3(0, 0, 5)}};
+  const SolidLoad load{Vec3(3, 4, 0), Vec3(0, 0, 5)};
+  (carries ? loads.carrying : loads.stress).push_back(load);
   if (carries) loads.carried = {2 * Eigen::Matrix<double, 6, 6>::Identity()};
   push_by<2>(loads, state.solids, g, 0.1, c);
   return c.push - Eigen::VectorXd::Ones(3);
