@@ -1,7 +1,6 @@
 #include "coupling/solids/known_loads.h"
 
 namespace seiche {
-
 namespace {
 
 using Six = Eigen::Matrix<double, 6, 1>;

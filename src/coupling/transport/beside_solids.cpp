@@ -1,6 +1,5 @@
 #include "coupling/transport/beside_solids.h"
 
-#include "grid/interpolation.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
 
@@ -19,14 +18,6 @@ FaceDistance<Dim> distance_at_face(const Layout<Dim>& layout, const NodeField<Di
       r.gradient[(axis + b) % Dim] += (((k >> (b - 1)) & 1) ? 1 : -1) * psi[node] * 2 / corners;
   }
   return r;
-}
-
-template <int Dim>
-Vec<Dim> velocity_at_point(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x) {
-  Vec<Dim> v;
-  for (int b = 0; b < Dim; ++b)
-    v[b] = interpolate_cubic<Dim>(layout, u[b].data(), index_coordinates<Dim>(layout, x, face_offset<Dim>(b)));
-  return v;
 }
 
 template <int Dim>
@@ -54,7 +45,6 @@ void continue_beyond(const Domain<Dim>& domain, const FaceField<Dim, char>& vali
 
 #define SEICHE_INSTANTIATE(D)                                                                                    \
   template FaceDistance<D> distance_at_face<D>(const Layout<D>&, const NodeField<D>&, int, Site);                \
-  template Vec<D> velocity_at_point<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&);                    \
   template FaceField<D, char> faces_beside_solids<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, \
                                                      const FaceField<D, char>&);                                 \
   template void continue_beyond<D>(const Domain<D>&, const FaceField<D, char>&, FaceField<D>&);

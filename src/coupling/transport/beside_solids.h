@@ -16,10 +16,6 @@ struct FaceDistance {
 template <int Dim>
 FaceDistance<Dim> distance_at_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site face);
 
-// All velocity components at x (m), by cubics, m/s.
-template <int Dim>
-Vec<Dim> velocity_at_point(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x);
-
 // 1 on the owned faces within two cells of a solid that are `near` the fluid (1: fluid on at least one side). Velocity
 // and acceleration continued into the solid are of second order there, so transport may read these faces whether liquid
 // touches them or not. Two cells are more than a solid moves in a step. Solids thinner than a cell do not count:

@@ -1,6 +1,7 @@
 #include "coupling/transport/flow_through_walls.h"
 
 #include "coupling/transport/beside_solids.h"
+#include "fluid/transport/advection.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -43,7 +44,7 @@ void sample_profile(const Layout<Dim>& layout, const NoSlipSolids<Dim>& solids, 
   const Vec<Dim> surface = place.center + place.depth * layout.h() * n;
   const auto relative = [&](double cells) -> Vec<Dim> {
     const Vec<Dim> x = surface + cells * layout.h() * n;
-    return velocity_at_point(layout, u, x) - solids.velocity(place.solid, x);
+    return sample_velocity(layout, u, x) - solids.velocity(place.solid, x);
   };
   const auto along = [&](const Vec<Dim>& w) { return w[axis] - w.dot(n) * n[axis]; };
   const Vec<Dim> near = relative(near_sample), far = relative(far_sample);

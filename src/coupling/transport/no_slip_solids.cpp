@@ -6,6 +6,7 @@
 #include "base/time_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/transport/beside_solids.h"
+#include "fluid/transport/advection.h"
 #include "fluid/viscosity/viscous_samples.h"
 #include "grid/interpolation.h"
 
@@ -61,7 +62,7 @@ template <int Dim>
 double NoSlipSolids<Dim>::moved_flow(const FaceField<Dim>& u, int k, int axis, const IVec<Dim>& i) const {
   const Vec<Dim> x = layout_.position(i, face_offset<Dim>(axis)), then = before(k, x);
   if ((then - x).norm() < 1e-9 * layout_.h()) return u.at(axis, layout_.site(i));
-  return (turn_[std::size_t(k)] * extend<Dim>(velocity_at_point(layout_, u, then)))[axis];
+  return (turn_[std::size_t(k)] * extend<Dim>(sample_velocity(layout_, u, then)))[axis];
 }
 
 // The distance of x then is that now of the point that moved along with the solid from there.

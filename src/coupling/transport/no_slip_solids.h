@@ -32,9 +32,9 @@ class NoSlipSolids {
   std::optional<FaceInSolid<Dim>> find(int axis, Site face, const IVec<Dim>& i, double deepest) const;
   // The solid of this kind nearest to a face's centre (-1: none), and the distance from it, m.
   std::pair<int, double> nearest(int axis, Site face) const;
-  // Where a point that moves with the solid was when the flow fitted it (m), and the velocity of that flow `u` there,
-  // turned with the solid, m/s.
+  // Place (m) that a point moving with the solid had when the flow fitted it.
   Vec<Dim> before(int solid, const Vec<Dim>& x) const;
+  // Velocity of that flow `u` there, turned with the solid, along the axis of the face i, m/s.
   double moved_flow(const FaceField<Dim>& u, int solid, int axis, const IVec<Dim>& i) const;
   Vec<Dim> velocity(int solid, const Vec<Dim>& x) const {
     return truncate<Dim>(motion_[std::size_t(solid)].at(extend<Dim>(x)));

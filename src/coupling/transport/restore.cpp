@@ -11,6 +11,7 @@
 #include "coupling/transport/transport.h"
 #include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
+#include "fluid/transport/advection.h"
 #include "grid/domain_faces.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
@@ -86,7 +87,7 @@ void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids
       const bool constant = fluids.has_gas() || fluids.keeps_air() || !g.continues_flow(g.body[f]);
       const double depth = constant ? 0 : std::min(-d.psi, straight_layers * l.h());
       const Vec<Dim> surface = l.position(i, face_offset<Dim>(a)) + depth * n;
-      if (v) u.at(a, f) += (*v - velocity_at_point(l, old, surface)).dot(n) * n[a];
+      if (v) u.at(a, f) += (*v - sample_velocity(l, old, surface)).dot(n) * n[a];
     });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the viscous operator lacks beside no-slip solids, as forces known before the solve
+// Forces that the viscous operator lacks beside no-slip solids, known before the solve
 // (docs/decisions/0067-flow-through-walls.md).
 #include "coupling/transport/no_slip_solids.h"
 #include "fluid/viscosity/load_sums.h"
@@ -31,8 +31,8 @@ void stop_in_slits(const Domain<Dim>& domain, const NoSlipSolids<Dim>& solids, c
                    const StepGeometry<Dim>& geometry, const TimeLevel<Dim>& now, const Vec3& gravity, double dt,
                    FaceField<Dim>& u);
 
-// Momentum that these faces lose in a step of dt (s) by that, as loads on the solids: the pressure on the fluid that
-// moves with them is part of it; and their inertia. Collective.
+// Adds the momentum that these faces lose by that in a step of dt (s), as loads on the solids, and their inertia. The
+// pressure on the fluid that moves with the solids is part of the loads. Collective.
 template <int Dim>
 void add_slit_loads(const Setup<Dim>& setup, const NoSlipSolids<Dim>& solids, const State<Dim>& state,
                     const StepGeometry<Dim>& geometry, double dt, KnownLoads& loads);

@@ -18,7 +18,7 @@ Box<Dim> sampled(const Layout<Dim>& layout) {
 
 // Node at a corner of a face. Bit b - 1 of the corner's number is set if it is at the high end along axis + b.
 template <int Dim>
-Site corner_of_face(const Layout<Dim>& layout, int axis, Site f, int corner) {
+Site corner_node(const Layout<Dim>& layout, int axis, Site f, int corner) {
   for (int b = 1; b < Dim; ++b) f += ((corner >> (b - 1)) & 1) * layout.stride((axis + b) % Dim);
   return f;
 }
@@ -34,7 +34,7 @@ double curvature_part(const Layout<Dim>& layout, const NodeField<Dim>& psi, int 
     const Site d = layout.stride((axis + b) % Dim);
     double part = 0;
     for (int k = 0; k < corners; ++k) {
-      const Site node = corner_of_face(layout, axis, f, k);
+      const Site node = corner_node(layout, axis, f, k);
       part += psi[node] - psi[((k >> (b - 1)) & 1) ? node + d : node - d];
     }
     sum += std::clamp(part * 2 / (16 * corners), -layout.h() / 8, layout.h() / 8);
@@ -185,7 +185,7 @@ std::pair<double, std::int16_t> nearest_solid(const Layout<Dim>& layout, const N
   double sum = 0, deepest = 1e300;
   std::int16_t solid = -1;
   for (int k = 0; k < corners; ++k) {
-    const Site node = corner_of_face(layout, axis, f, k);
+    const Site node = corner_node(layout, axis, f, k);
     sum += psi[node];
     if (psi[node] < deepest) deepest = psi[node], solid = body[node];
   }
